@@ -1,0 +1,305 @@
+//! Alpha textures: one channel, 8-bit normalised or 32-bit float.
+
+/// The longest side of a texture, in texels.
+pub const MAX_SIDE: u32 = 65_536;
+
+/// One mip level of an alpha channel, row by row from *v* = 0 upwards.
+///
+/// Texel (i, j) is centred at ((i + 0.5) / width, (j + 0.5) / height).
+#[derive(Clone, Debug)]
+pub struct Texture {
+    width: u32,
+    height: u32,
+    /// Texels from the start of one row to the start of the next, at least `width`.
+    row_pitch: usize,
+    texels: Texels,
+    /// The least and the greatest stored value.
+    extremes: [f64; 2],
+}
+
+#[derive(Clone, Debug)]
+enum Texels {
+    /// Alpha is the value divided by 255.
+    Unorm8(Vec<u8>),
+    /// Alpha is the value; every value is finite.
+    Fp32(Vec<f32>),
+}
+
+/// Data that does not make a texture.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TextureError {
+    /// A side has no texels.
+    #[error("a texture of {width} x {height} texels is empty")]
+    Empty {
+        /// Width in texels.
+        width: u32,
+        /// Height in texels.
+        height: u32,
+    },
+    /// A side is longer than [`MAX_SIDE`].
+    #[error("a texture of {width} x {height} texels is too large: no side may exceed {MAX_SIDE}")]
+    TooLarge {
+        /// Width in texels.
+        width: u32,
+        /// Height in texels.
+        height: u32,
+    },
+    /// Rows overlap.
+    #[error("a row pitch of {row_pitch} texels is less than the width of {width}")]
+    RowPitch {
+        /// The pitch that was given.
+        row_pitch: usize,
+        /// Width in texels.
+        width: u32,
+    },
+    /// There are fewer or more values than the sizes ask for.
+    #[error("the texture data has {found} texels, but its size asks for {least} to {most}")]
+    DataLength {
+        /// Values given.
+        found: usize,
+        /// Values up to the end of the last row's texels.
+        least: u64,
+        /// Values up to the end of the last row's pitch.
+        most: u64,
+    },
+    /// A float texel is NaN or infinite.
+    #[error("texel ({x}, {y}) is {value}, which is not a finite number")]
+    NotFinite {
+        /// Column of the texel.
+        x: u32,
+        /// Row of the texel.
+        y: u32,
+        /// Its value.
+        value: f32,
+    },
+}
+
+impl Texture {
+    /// A texture of `width` x `height` bytes without gaps between rows; alpha is the byte divided by 255, as a rational number.
+    ///
+    /// # Errors
+    /// [`TextureError`] says which size does not fit.
+    pub fn unorm8(width: u32, height: u32, data: Vec<u8>) -> Result<Self, TextureError> {
+        Self::unorm8_with_row_pitch(width, height, width as usize, data)
+    }
+
+    /// As [`unorm8`](Self::unorm8), with `row_pitch` bytes from the start of one row to the start of the next.
+    ///
+    /// What lies between rows is not looked at. The data may end with the last row's texels or with its pitch.
+    ///
+    /// # Errors
+    /// [`TextureError`] says which size does not fit.
+    pub fn unorm8_with_row_pitch(
+        width: u32,
+        height: u32,
+        row_pitch: usize,
+        data: Vec<u8>,
+    ) -> Result<Self, TextureError> {
+        check_sizes(width, height, row_pitch, data.len())?;
+        let mut extremes = [u8::MAX, u8::MIN];
+        for row in rows(&data, width, row_pitch) {
+            extremes = row.iter().fold(extremes, |[least, most], &value| [least.min(value), most.max(value)]);
+        }
+        Ok(Self { width, height, row_pitch, texels: Texels::Unorm8(data), extremes: extremes.map(f64::from) })
+    }
+
+    /// A texture of `width` x `height` floats without gaps between rows; alpha is the float, which need not be in 0..=1.
+    ///
+    /// # Errors
+    /// [`TextureError`] says which size does not fit, or names the first texel that is NaN or infinite.
+    pub fn fp32(width: u32, height: u32, data: Vec<f32>) -> Result<Self, TextureError> {
+        Self::fp32_with_row_pitch(width, height, width as usize, data)
+    }
+
+    /// As [`fp32`](Self::fp32), with `row_pitch` floats (not bytes) from the start of one row to the start of the next.
+    ///
+    /// What lies between rows is not looked at. The data may end with the last row's texels or with its pitch.
+    ///
+    /// # Errors
+    /// [`TextureError`] says which size does not fit, or names the first texel that is NaN or infinite.
+    pub fn fp32_with_row_pitch(
+        width: u32,
+        height: u32,
+        row_pitch: usize,
+        data: Vec<f32>,
+    ) -> Result<Self, TextureError> {
+        check_sizes(width, height, row_pitch, data.len())?;
+        let mut extremes = [f32::INFINITY, f32::NEG_INFINITY];
+        for (y, row) in (0..).zip(rows(&data, width, row_pitch)) {
+            for (x, &value) in (0..).zip(row) {
+                if !value.is_finite() {
+                    return Err(TextureError::NotFinite { x, y, value });
+                }
+                extremes = [extremes[0].min(value), extremes[1].max(value)];
+            }
+        }
+        Ok(Self { width, height, row_pitch, texels: Texels::Fp32(data), extremes: extremes.map(f64::from) })
+    }
+
+    /// Width in texels, `1..=MAX_SIDE`.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in texels, `1..=MAX_SIDE`.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// The alpha of texel (`x`, `y`), rounded to `f64`; `None` outside the texture.
+    #[must_use]
+    pub fn alpha(&self, x: u32, y: u32) -> Option<f64> {
+        (x < self.width && y < self.height).then(|| self.stored(x, y) / self.unit())
+    }
+
+    /// The stored value that stands for an alpha of 1. Stored values are exact in `f64`, alpha values need not be.
+    pub(crate) const fn unit(&self) -> f64 {
+        match self.texels {
+            Texels::Unorm8(_) => 255.0,
+            Texels::Fp32(_) => 1.0,
+        }
+    }
+
+    /// Whether all stored values are integers.
+    pub(crate) const fn is_integral(&self) -> bool {
+        matches!(self.texels, Texels::Unorm8(_))
+    }
+
+    /// The least and the greatest stored value.
+    pub(crate) const fn extremes(&self) -> [f64; 2] {
+        self.extremes
+    }
+
+    /// Appends to `words` a bit for each texel of row `y`: whether its stored value is above `threshold`. The caller has proved
+    /// `y < height`.
+    pub(crate) fn above_words(&self, y: u32, threshold: f64, words: &mut Vec<u64>) {
+        let start = y as usize * self.row_pitch;
+        let row = start..start + self.width as usize;
+        match &self.texels {
+            Texels::Unorm8(texels) => {
+                // How many of the 256 values are not above: in order, so the value itself tells.
+                let not_above = (0..=u8::MAX).filter(|&value| f64::from(value) <= threshold).count() as u16;
+                let above = |value: u8| u16::from(value) >= not_above;
+                words.extend(texels[row].chunks(64).map(|values| above_word(values, above)));
+            }
+            Texels::Fp32(texels) => {
+                let above = |value: f32| f64::from(value) > threshold;
+                words.extend(texels[row].chunks(64).map(|values| above_word(values, above)));
+            }
+        }
+    }
+
+    /// The stored values of the texels (`x`, `y`), (`x` + 1, `y`), (`x`, `y` + 1) and (`x` + 1, `y` + 1), exactly; `None` if the data
+    /// ends before the last.
+    pub(crate) fn square(&self, x: u32, y: u32) -> Option<[f64; 4]> {
+        let at = y as usize * self.row_pitch + x as usize;
+        let next = at + self.row_pitch;
+        match &self.texels {
+            Texels::Unorm8(texels) => match (texels.get(at..at + 2)?, texels.get(next..next + 2)?) {
+                (&[a, b], &[c, d]) => Some([a.into(), b.into(), c.into(), d.into()]),
+                _ => None,
+            },
+            Texels::Fp32(texels) => match (texels.get(at..at + 2)?, texels.get(next..next + 2)?) {
+                (&[a, b], &[c, d]) => Some([a.into(), b.into(), c.into(), d.into()]),
+                _ => None,
+            },
+        }
+    }
+
+    /// The stored value of texel (`x`, `y`), exactly. The caller has proved `x < width` and `y < height`.
+    pub(crate) fn stored(&self, x: u32, y: u32) -> f64 {
+        let at = y as usize * self.row_pitch + x as usize;
+        match &self.texels {
+            Texels::Unorm8(texels) => texels[at].into(),
+            Texels::Fp32(texels) => texels[at].into(),
+        }
+    }
+}
+
+/// Whether each of up to 64 values is above a threshold, the first in the least significant bit.
+fn above_word<T: Copy>(values: &[T], above: impl Fn(T) -> bool) -> u64 {
+    // In bytes first: these loops have no data dependence from one value to the next.
+    let mut flags = [0_u8; 64];
+    for (flag, &value) in flags.iter_mut().zip(values) {
+        *flag = above(value).into();
+    }
+    let mut word = 0;
+    for (bit, flags) in (0_u32..).step_by(8).zip(flags.chunks_exact(8)) {
+        let bytes = flags.iter().rev().fold(0_u64, |bytes, &flag| bytes << 8 | u64::from(flag));
+        // Gathers the lowest bits of eight bytes in the top byte of the product: no two terms meet in a bit.
+        word |= (bytes.wrapping_mul(0x0102_0408_1020_4080) >> 56) << bit;
+    }
+    word
+}
+
+/// The texels of each row. The sizes have been checked.
+fn rows<T>(data: &[T], width: u32, row_pitch: usize) -> impl Iterator<Item = &[T]> {
+    data.chunks(row_pitch).map(move |row| &row[..width as usize])
+}
+
+fn check_sizes(width: u32, height: u32, row_pitch: usize, found: usize) -> Result<(), TextureError> {
+    if width == 0 || height == 0 {
+        return Err(TextureError::Empty { width, height });
+    }
+    if width > MAX_SIDE || height > MAX_SIDE {
+        return Err(TextureError::TooLarge { width, height });
+    }
+    if row_pitch < width as usize {
+        return Err(TextureError::RowPitch { row_pitch, width });
+    }
+    // An absurd pitch saturates to a length that no slice has.
+    let before_last = (row_pitch as u64).saturating_mul(u64::from(height) - 1);
+    let least = before_last.saturating_add(width.into());
+    let most = before_last.saturating_add(row_pitch as u64);
+    if (least..=most).contains(&(found as u64)) { Ok(()) } else { Err(TextureError::DataLength { found, least, most }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_must_fit() {
+        let text = |result: Result<Texture, TextureError>| result.unwrap_err().to_string();
+        assert_eq!(text(Texture::unorm8(0, 4, vec![])), "a texture of 0 x 4 texels is empty");
+        assert_eq!(
+            text(Texture::unorm8(1, 65_537, vec![])),
+            "a texture of 1 x 65537 texels is too large: no side may exceed 65536"
+        );
+        assert_eq!(
+            text(Texture::unorm8(3, 2, vec![0; 5])),
+            "the texture data has 5 texels, but its size asks for 6 to 6"
+        );
+        assert_eq!(
+            text(Texture::fp32_with_row_pitch(3, 2, 2, vec![0.0; 5])),
+            "a row pitch of 2 texels is less than the width of 3"
+        );
+        let absurd = Texture::unorm8_with_row_pitch(3, 3, usize::MAX, vec![0; 5]).unwrap_err();
+        assert!(matches!(absurd, TextureError::DataLength { found: 5, least: u64::MAX, .. }));
+    }
+
+    #[test]
+    fn row_pitch_skips_padding() {
+        for length in [8, 9] {
+            let data = [10, 20, 99, 30, 40, 99, 50, 60, 99][..length].to_vec();
+            let texture = Texture::unorm8_with_row_pitch(2, 3, 3, data).unwrap();
+            assert_eq!(texture.stored(1, 2), 60.0);
+            assert_eq!(texture.extremes(), [10.0, 60.0]);
+        }
+        assert_eq!(
+            Texture::unorm8_with_row_pitch(2, 3, 3, vec![0; 7]).unwrap_err(),
+            TextureError::DataLength { found: 7, least: 8, most: 9 }
+        );
+        let padding = Texture::fp32_with_row_pitch(1, 2, 2, vec![0.5, f32::NAN, 1.5]).unwrap();
+        assert_eq!(padding.extremes(), [0.5, 1.5]);
+        assert_eq!((padding.alpha(0, 1), padding.alpha(1, 0)), (Some(1.5), None));
+    }
+
+    #[test]
+    fn floats_must_be_finite() {
+        let error = Texture::fp32(2, 2, vec![0.0, 1.0, f32::NEG_INFINITY, f32::NAN]).unwrap_err();
+        assert_eq!(error.to_string(), "texel (0, 1) is -inf, which is not a finite number");
+    }
+}

@@ -1,0 +1,132 @@
+//! What a bake counted, as scripts and people read it.
+
+use std::io::{self, Write};
+use std::time::Duration;
+
+use omm_bake::{BakeInput, BakeOptions, BakeOutput, BakeStatistics, StateCounts};
+use omm_model::usage::MicromapUsage;
+use serde::Serialize;
+
+/// The contents of `NAME.stats.json`.
+#[derive(Debug, Serialize)]
+pub(crate) struct Statistics {
+    name: String,
+    /// Width and height in texels.
+    texture: [u32; 2],
+    /// How it was baked.
+    options: BakeOptions,
+    /// Triangles of the mesh.
+    triangles: u64,
+    /// Micromap triangles.
+    micromap_triangles: u64,
+    /// Microtriangles in the array by state: data that triangles share counts once.
+    states: StateCounts,
+    /// Microtriangles of all triangles of the mesh by state, whether in the array or by a special index.
+    triangle_states: StateCounts,
+    /// Triangles of the mesh with a special index, by its state.
+    special_indices: StateCounts,
+    /// Micromap triangles by level and format: the usage counts of the micromap's build.
+    histogram: Vec<Usage>,
+    /// Triangles of the mesh that read a micromap triangle, by its level and format: the usage counts of the geometry.
+    index_histogram: Vec<Usage>,
+    /// The part of `triangle_states` that needs no shader, 0 to 1.
+    known_fraction: f64,
+    /// Triangles whose texture coordinates are not finite.
+    not_finite: u64,
+    /// Triangles whose texture coordinates are too far out to name texels.
+    out_of_range: u64,
+    /// Microtriangles left unknown because deciding would have taken too long.
+    undecided: u64,
+    bytes: Bytes,
+    /// Time that baking took.
+    seconds: f64,
+}
+
+/// So many triangles have this level and format.
+#[derive(Debug, Serialize)]
+struct Usage {
+    level: u32,
+    /// 1: 2-state, 2: 4-state.
+    format: u16,
+    count: u32,
+}
+
+/// Bytes of the files of data.
+#[derive(Debug, Serialize)]
+struct Bytes {
+    array: u64,
+    desc: u64,
+    index: u64,
+    total: u64,
+}
+
+impl From<&MicromapUsage> for Usage {
+    fn from(&MicromapUsage { count, subdivision_level, format }: &MicromapUsage) -> Self {
+        Self { level: subdivision_level.get(), format: format.value(), count }
+    }
+}
+
+impl Statistics {
+    pub(super) fn new(
+        name: &str,
+        input: &BakeInput<'_>,
+        options: &BakeOptions,
+        output: &BakeOutput,
+        time: Duration,
+    ) -> Self {
+        let BakeOutput { array, triangles, indices, usage_counts, index_usage_counts, statistics } = output;
+        let &BakeStatistics {
+            triangles: mesh_triangles,
+            baked_triangles: _,
+            micromap_triangles,
+            array_states,
+            triangle_states,
+            special_indices,
+            known_fraction,
+            not_finite,
+            out_of_range,
+            undecided,
+            array_bytes: _,
+        } = statistics;
+        let [array, desc, index] =
+            [array.len(), triangles.len() * omm_layout::triangle::SIZE, indices.len() * size_of::<i32>()]
+                .map(|n| n as u64);
+        Self {
+            name: name.to_owned(),
+            texture: [input.texture.width(), input.texture.height()],
+            options: options.clone(),
+            triangles: mesh_triangles,
+            micromap_triangles,
+            states: array_states,
+            triangle_states,
+            special_indices,
+            histogram: usage_counts.iter().map(Usage::from).collect(),
+            index_histogram: index_usage_counts.iter().map(Usage::from).collect(),
+            known_fraction,
+            not_finite,
+            out_of_range,
+            undecided,
+            bytes: Bytes { array, desc, index, total: array + desc + index },
+            seconds: time.as_secs_f64(),
+        }
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// One row of the table that people get.
+    pub(super) fn print_row(&self, width: usize, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(
+            out,
+            "{:<width$}  {:>9}  {:>9}  {:>12}  {:>14}  {:>6.2}%  {:>8.3}",
+            self.name,
+            self.triangles,
+            self.special_indices.total(),
+            self.bytes.array,
+            self.triangle_states.total(),
+            100.0 * self.known_fraction,
+            self.seconds
+        )
+    }
+}

@@ -1,0 +1,255 @@
+//! Everything that `omm` writes: reports on the standard output, and files that appear all together or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use image::{ImageFormat, RgbaImage};
+use serde::Serialize;
+use tempfile::NamedTempFile;
+
+use crate::error::CliError;
+
+/// Lets `write` print to the standard output.
+///
+/// A reader that has gone away (`omm … | head`) is no error: what is left is not printed.
+pub(crate) fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), CliError> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.map_err(CliError::StandardOutput),
+    }
+}
+
+/// Prints `value` as one indented JSON document.
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), CliError> {
+    print(|out| {
+        serde_json::to_writer_pretty(&mut *out, value)?;
+        out.write_all(b"\n")
+    })
+}
+
+/// The bytes of the regular file at `path`, no more than its size promises.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, CliError> {
+    let (file, length) = open(path)?;
+    let mut bytes = Vec::new();
+    file.take(length).read_to_end(&mut bytes).map_err(CliError::read(path))?;
+    Ok(bytes)
+}
+
+/// Whether the regular file at `path` starts with `magic`.
+pub(crate) fn starts_with(path: &Path, magic: &[u8]) -> Result<bool, CliError> {
+    let mut start = Vec::new();
+    let (file, _) = open(path)?;
+    file.take(magic.len() as u64).read_to_end(&mut start).map_err(CliError::read(path))?;
+    Ok(start == magic)
+}
+
+/// The regular file at `path` and its size. Devices and pipes, which may have no end, are refused.
+pub(crate) fn open(path: &Path) -> Result<(File, u64), CliError> {
+    let open = || {
+        // Asked before opening: to open a pipe is to wait for its other end.
+        if !path.metadata()?.is_file() {
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, "not a regular file"));
+        }
+        let file = File::open(path)?;
+        let length = file.metadata()?.len();
+        Ok((file, length))
+    };
+    open().map_err(CliError::read(path))
+}
+
+/// Writes a line to the standard error, if anybody listens.
+pub(crate) fn complain(line: &str) {
+    // Nobody is left to be told if this fails.
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// Files of one folder that appear under their names all together in [`commit`](Self::commit), or not at all.
+///
+/// Until then each lies in the folder under a temporary name; dropping the set removes them, and every folder that it made.
+#[derive(Debug)]
+pub(crate) struct OutputSet {
+    folder: PathBuf,
+    /// Folders that this set made, outermost first. `None` before the first file.
+    made: Option<Vec<PathBuf>>,
+    files: Vec<(PathBuf, NamedTempFile)>,
+    committed: bool,
+}
+
+impl OutputSet {
+    /// An empty set for `folder`, which is made (with its parents) when the first file is written.
+    pub(crate) fn new(folder: &Path) -> Self {
+        Self { folder: folder.into(), made: None, files: Vec::new(), committed: false }
+    }
+
+    /// An empty set for the folder in which the file `path` is to lie.
+    pub(crate) fn of_file(path: &Path) -> Result<Self, CliError> {
+        let named = path.file_name().ok_or_else(|| io::Error::from(io::ErrorKind::InvalidFilename));
+        named.map_err(CliError::write(path))?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        Ok(Self::new(folder.unwrap_or(Path::new("."))))
+    }
+
+    /// Adds the file `path`, of whose folder this set is, with what `write` writes.
+    pub(crate) fn add_file(
+        &mut self,
+        path: &Path,
+        write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+    ) -> Result<(), CliError> {
+        self.add(path.file_name().unwrap_or_default(), write)
+    }
+
+    /// Adds a file `name` with what `write` writes.
+    pub(crate) fn add(
+        &mut self,
+        name: impl AsRef<Path>,
+        write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+    ) -> Result<(), CliError> {
+        self.make_folder()?;
+        let path = self.folder.join(name);
+        let stage = || {
+            if path.is_dir() {
+                return Err(io::Error::from(io::ErrorKind::IsADirectory));
+            }
+            let mut file = builder().tempfile_in(&self.folder)?;
+            let mut writer = BufWriter::new(file.as_file_mut());
+            write(&mut writer)?;
+            writer.flush()?;
+            drop(writer);
+            Ok(file)
+        };
+        let file = stage().map_err(CliError::write(&path))?;
+        self.files.push((path, file));
+        Ok(())
+    }
+
+    /// Adds a file `name` that holds `value` as indented JSON.
+    pub(crate) fn add_json(&mut self, name: &str, value: &impl Serialize) -> Result<(), CliError> {
+        self.add(name, |out| {
+            serde_json::to_writer_pretty(&mut *out, value)?;
+            out.write_all(b"\n")
+        })
+    }
+
+    /// Adds a file `name` that holds `image` as a PNG.
+    pub(crate) fn add_png(&mut self, name: &str, image: &RgbaImage) -> Result<(), CliError> {
+        self.add(name, |out| image.write_to(out, ImageFormat::Png).map_err(io::Error::other))
+    }
+
+    /// Makes the folder and tries whether a file can be written there. Otherwise the first file does both.
+    pub(crate) fn prepare(&mut self) -> Result<(), CliError> {
+        self.make_folder()?;
+        builder().tempfile_in(&self.folder).map(drop).map_err(CliError::write(&self.folder))
+    }
+
+    /// Gives every file its name, replacing what was there, and returns the paths in the order in which they were added.
+    ///
+    /// If one cannot be renamed, those renamed before it are removed again.
+    pub(crate) fn commit(mut self) -> Result<Vec<PathBuf>, CliError> {
+        self.make_folder()?;
+        let mut done = Vec::with_capacity(self.files.len());
+        for (path, file) in self.files.drain(..) {
+            if let Err(error) = file.persist(&path) {
+                for path in &done {
+                    // The first failure is the one to report.
+                    let _ = fs::remove_file(path);
+                }
+                return Err(CliError::write(&path)(error.error));
+            }
+            done.push(path);
+        }
+        self.committed = true;
+        Ok(done)
+    }
+
+    fn make_folder(&mut self) -> Result<(), CliError> {
+        if self.made.is_some() {
+            return Ok(());
+        }
+        // An empty path is what is left above a relative one: the current folder, which exists.
+        let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
+        let mut made: Vec<PathBuf> = self.folder.ancestors().take_while(missing).map(Path::to_path_buf).collect();
+        made.reverse();
+        self.made = Some(made);
+        fs::create_dir_all(&self.folder).map_err(CliError::write(&self.folder))
+    }
+}
+
+impl Drop for OutputSet {
+    fn drop(&mut self) {
+        if self.committed {
+            return;
+        }
+        self.files.clear();
+        for folder in self.made.iter().flatten().rev() {
+            // Fails on a folder that another program has begun to use, which then stays.
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Temporary files get the permissions that ordinary new files get; the library's default is owner only.
+#[cfg(unix)]
+fn builder() -> tempfile::Builder<'static, 'static> {
+    use std::os::unix::fs::PermissionsExt;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".omm-").permissions(fs::Permissions::from_mode(0o666));
+    builder
+}
+
+/// Temporary files in the output folder.
+#[cfg(not(unix))]
+fn builder() -> tempfile::Builder<'static, 'static> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".omm-");
+    builder
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entries(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn files_appear_at_the_commit_and_not_before() {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("a/b");
+        let mut set = OutputSet::new(&folder);
+        assert!(!root.path().join("a").exists());
+        set.add("one", |out| out.write_all(b"1")).unwrap();
+        set.add_json("two", &[2]).unwrap();
+        assert!(entries(&folder).iter().all(|name| name.starts_with(".omm-")));
+        assert_eq!(set.commit().unwrap(), [folder.join("one"), folder.join("two")]);
+        assert_eq!(entries(&folder), ["one", "two"]);
+        assert_eq!(fs::read(folder.join("two")).unwrap(), b"[\n  2\n]\n");
+    }
+
+    #[test]
+    fn a_set_that_is_dropped_leaves_nothing() {
+        let root = tempfile::tempdir().unwrap();
+        let mut set = OutputSet::new(&root.path().join("a/b"));
+        set.add("one", |out| out.write_all(b"1")).unwrap();
+        let refused = set.add("two", |_| Err(io::Error::other("enough"))).unwrap_err().to_string();
+        assert!(refused.ends_with("two: cannot write: enough"), "{refused}");
+        drop(set);
+        assert!(entries(root.path()).is_empty());
+    }
+
+    #[test]
+    fn a_folder_in_the_way_is_named_and_nothing_is_left() {
+        let root = tempfile::tempdir().unwrap();
+        fs::create_dir(root.path().join("two")).unwrap();
+        let mut set = OutputSet::new(root.path());
+        set.add("one", |out| out.write_all(b"1")).unwrap();
+        assert!(set.add("two", |_| Ok(())).unwrap_err().to_string().contains("two: cannot write: "));
+        drop(set);
+        assert_eq!(entries(root.path()), ["two"]);
+    }
+}

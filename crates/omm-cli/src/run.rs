@@ -1,0 +1,51 @@
+//! `omm run`: executes scenarios and prints what happened.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use omm_scenario::{Scenario, run as execute};
+
+use crate::cli::Format;
+use crate::error::{CliError, Outcome};
+use crate::output;
+
+/// Arguments of `omm run`.
+#[derive(Debug, Args)]
+#[command(after_help = HELP)]
+pub(crate) struct RunArgs {
+    /// Scenario files.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+}
+
+const HELP: &str = "\
+The form of a scenario is explained by one: spec-tests/readme.ron.
+
+Examples:
+  omm run spec-tests/readme.ron
+  omm run --format json spec-tests/build/*.ron
+
+Exit status:
+  0  every expectation holds
+  1  an expectation does not hold
+  2  a scenario cannot be read or run";
+
+/// Runs `omm run`.
+pub(crate) fn run(args: &RunArgs, format: Format) -> Result<Outcome, CliError> {
+    let mut transcripts = Vec::with_capacity(args.files.len());
+    for path in &args.files {
+        let bytes = output::read(path)?;
+        let text = String::from_utf8(bytes).map_err(|source| CliError::NotText { path: path.clone(), source })?;
+        let name = path.display().to_string();
+        transcripts
+            .push(Scenario::parse(&name, &text).and_then(|scenario| execute(&scenario)).map_err(CliError::Scenario)?);
+    }
+    match format {
+        Format::Json => output::print_json(&transcripts)?,
+        Format::Text => {
+            output::print(|out| transcripts.iter().try_for_each(|transcript| writeln!(out, "{transcript}")))?;
+        }
+    }
+    let passed = transcripts.iter().all(omm_scenario::Transcript::passed);
+    Ok(if passed { Outcome::Clean } else { Outcome::Violations })
+}

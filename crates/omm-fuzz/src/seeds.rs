@@ -1,0 +1,78 @@
+//! Inputs to begin with, made of our own output.
+
+use omm_layout::object::{BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, MicromapContents};
+use omm_layout::object::{MicromapTriangleData, TlasContents};
+use omm_model::format::OpacityMicromapFormat;
+use omm_model::level::SubdivisionLevel;
+use omm_model::profile::Uuid;
+use omm_model::special_index::TriangleMap;
+use omm_model::triangle::MicromapTriangle;
+use omm_model::usage::histogram;
+use omm_model::vk;
+use omm_serialize::bundle::{BundleData, MicromapData, Source};
+use omm_serialize::{Block, ByteOrder, Header, References, serialize_object};
+
+/// Serialized objects of every kind, built and compacted; headers in both byte orders; bundles. Each also behind a byte that cuts it
+/// into pieces.
+#[must_use]
+pub fn seeds() -> Vec<Vec<u8>> {
+    let mut seeds = vec![Vec::new()];
+    for object in objects() {
+        let compacted = omm_layout::object::compact(&object).unwrap_or_default();
+        for object in [object, compacted] {
+            seeds.extend(serialize_object(&object, Uuid([1; 16]), Uuid([2; 16])));
+        }
+    }
+    let blocks = [(0, vec![1, 2]), (7, vec![]), (0, vec![3])];
+    let block = |(block_type, addresses)| Block { block_type, reserved: 5, addresses };
+    for references in [References::Handles(vec![8, 9]), References::Blocks(blocks.map(block).to_vec())] {
+        let header = Header::for_payload(Uuid([3; 16]), Uuid([4; 16]), 99, references, 4);
+        seeds.extend([ByteOrder::Little, ByteOrder::Big].map(|order| header.write(order, b"body")));
+    }
+    seeds.push(BundleData::default().write());
+    seeds.push(BundleData { micromaps: vec![micromap(), MicromapData::default()] }.write());
+    let pieces: Vec<_> = seeds.iter().map(|seed| [&[6], seed.as_slice()].concat()).collect();
+    seeds.extend(pieces);
+    seeds
+}
+
+fn objects() -> Vec<Vec<u8>> {
+    let triangle = MicromapTriangleData {
+        subdivision_level: SubdivisionLevel::ZERO,
+        format: OpacityMicromapFormat::FourState,
+        data: &[2],
+    };
+    let leaf = MicromapContents { flags: 2, triangles: vec![triangle; 2] }.encode();
+    let mapped = MappedTriangle { vertices: [[0.5; 3]; 3], map: TriangleMap::Triangle(1) };
+    let geometry = |primitives| BlasGeometry { flags: vk::GeometryFlags::OPAQUE, primitives };
+    let geometries = vec![
+        geometry(BlasPrimitives::MicromapTriangles { micromap: 0x100, triangles: vec![None, Some(mapped)] }),
+        geometry(BlasPrimitives::MicromapTriangles { micromap: 0, triangles: vec![] }),
+        geometry(BlasPrimitives::Triangles(vec![Some([[1.0; 3]; 3])])),
+        geometry(BlasPrimitives::Aabbs(vec![None])),
+    ];
+    let card = BlasContents { flags: 2, geometries }.encode();
+    let instance =
+        |acceleration_structure_reference| vk::Instance { acceleration_structure_reference, ..vk::Instance::default() };
+    let scene = TlasContents { flags: 2, instances: [7, 0, 7].map(instance).to_vec() }.encode();
+    [leaf, card, scene].into_iter().flatten().collect()
+}
+
+fn micromap() -> MicromapData {
+    let triangle = MicromapTriangle {
+        data_offset: 1,
+        subdivision_level: SubdivisionLevel::ZERO,
+        format: OpacityMicromapFormat::TwoState,
+    };
+    MicromapData {
+        name: "leaf".to_owned(),
+        array: vec![0, 1],
+        triangles: vec![triangle],
+        indices: vec![0, -4],
+        usage_counts: histogram([triangle]),
+        index_usage_counts: histogram([triangle]),
+        settings: "{}".to_owned(),
+        sources: vec![Source { name: "leaf.png".to_owned(), length: 3, sha256: [7; 32] }],
+        statistics: "{}".to_owned(),
+    }
+}

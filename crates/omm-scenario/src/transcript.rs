@@ -1,0 +1,176 @@
+//! What happened: for people, and for programs.
+
+use std::fmt;
+
+use omm_device::Undefined;
+use omm_model::call::Output;
+use omm_validate::RuleId;
+use serde::Serialize;
+
+/// What the device made of a call.
+#[derive(Clone, Debug)]
+pub(crate) enum Outcome {
+    Output(Output),
+    Undefined(Box<Undefined>),
+}
+
+/// A rule that a call breaks.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(crate) struct Finding {
+    #[serde(rename = "vuid")]
+    pub(crate) rule: RuleId,
+    #[serde(rename = "path")]
+    pub(crate) at: String,
+    pub(crate) found: String,
+    pub(crate) required: String,
+}
+
+/// One call.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct CallRecord {
+    pub(crate) command: &'static str,
+    pub(crate) summary: String,
+    /// Whether the scenario asked for it; others lead up to it.
+    #[serde(skip)]
+    pub(crate) is_main: bool,
+    #[serde(rename = "reports")]
+    pub(crate) findings: Vec<Finding>,
+    /// What it returned, or why the device stopped.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) outcome: Option<String>,
+    #[serde(rename = "undefined")]
+    pub(crate) is_undefined: bool,
+    #[serde(skip)]
+    pub(crate) output: Option<Output>,
+}
+
+impl CallRecord {
+    /// Whether there is anything to say about it.
+    fn is_shown(&self) -> bool {
+        self.is_main || self.is_undefined || !self.findings.is_empty()
+    }
+}
+
+/// What was done for one object or one step.
+#[derive(Clone, Debug, Default, Serialize)]
+pub(crate) struct Group {
+    /// The object, or the step in short.
+    pub(crate) name: String,
+    /// What it is.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub(crate) description: String,
+    /// Parameters that were changed, and their new values.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) changes: Vec<(String, String)>,
+    #[serde(serialize_with = "shown_calls")]
+    pub(crate) calls: Vec<CallRecord>,
+}
+
+fn shown_calls<S: serde::Serializer>(calls: &[CallRecord], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(calls.iter().filter(|call| call.is_shown()))
+}
+
+/// Something expected.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Check {
+    pub(crate) expected: String,
+    /// What was found instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) failure: Option<String>,
+}
+
+/// The record of a run.
+///
+/// [`Display`](fmt::Display) writes it for people: what was given, each step with its calls, what the validator reported below
+/// them, what the device made of them, and what became of the expectations. Objects go by their names; there are no line numbers,
+/// handles or addresses that another line in the scenario would change. `Serialize` writes the same for programs:
+///
+/// `{"title", "section", "profile", "breaks", "keeps", "given": […], "when": [{"name", "changes", "calls": [{"command",
+/// "summary", "reports": [{"vuid", "path", "found", "required"}], "outcome", "undefined"}]}], "then": [{"expected", "failure"}],
+/// "reported", "passed"}`
+#[derive(Clone, Debug, Serialize)]
+pub struct Transcript {
+    pub(crate) title: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) section: Option<String>,
+    pub(crate) profile: String,
+    pub(crate) breaks: Vec<RuleId>,
+    pub(crate) keeps: Vec<RuleId>,
+    pub(crate) given: Vec<Group>,
+    pub(crate) when: Vec<Group>,
+    pub(crate) then: Vec<Check>,
+    pub(crate) reported: Vec<RuleId>,
+    pub(crate) passed: bool,
+}
+
+impl Transcript {
+    /// Whether exactly the rules that the scenario breaks were reported, and all that it expects was found.
+    #[must_use]
+    pub const fn passed(&self) -> bool {
+        self.passed
+    }
+
+    /// The rules that were reported, in the catalog's order.
+    #[must_use]
+    pub fn reported(&self) -> &[RuleId] {
+        &self.reported
+    }
+
+    /// What was expected and not found.
+    pub fn failures(&self) -> impl Iterator<Item = String> {
+        self.then.iter().filter_map(|check| Some(format!("{}: {}", check.expected, check.failure.as_deref()?)))
+    }
+}
+
+impl fmt::Display for Transcript {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.title)?;
+        writeln!(f, "on {}", self.profile)?;
+        for (what, rules) in [("breaks", &self.breaks), ("keeps", &self.keeps)] {
+            rules.iter().try_for_each(|rule| writeln!(f, "{what} {rule}"))?;
+        }
+        for (what, groups) in [("given", &self.given), ("when", &self.when)] {
+            if !groups.is_empty() {
+                writeln!(f, "\n{what}")?;
+            }
+            groups.iter().try_for_each(|group| group.fmt(f))?;
+        }
+        if !self.then.is_empty() {
+            writeln!(f, "\nthen")?;
+        }
+        for Check { expected, failure } in &self.then {
+            match failure {
+                None => writeln!(f, "  ✓ {expected}")?,
+                Some(failure) => writeln!(f, "  ✗ {expected}\n      {failure}")?,
+            }
+        }
+        writeln!(f, "\n{}", if self.passed { "passed" } else { "FAILED" })
+    }
+}
+
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let separator = if self.description.is_empty() { "" } else { " = " };
+        writeln!(f, "  {}{separator}{}", self.name, self.description)?;
+        for (path, value) in &self.changes {
+            writeln!(f, "      with {path} = {value}")?;
+        }
+        for call in self.calls.iter().filter(|call| call.is_shown()) {
+            // What only leads to the device's stop says nothing by itself; the reason names the command.
+            if call.is_main || !call.findings.is_empty() {
+                let separator = if call.summary.is_empty() { "" } else { ": " };
+                writeln!(f, "    {}{separator}{}", call.command, call.summary)?;
+            }
+            for Finding { rule, at, found, required } in &call.findings {
+                writeln!(f, "      ! {rule}")?;
+                writeln!(f, "        {at}")?;
+                writeln!(f, "        found {found}, required {required}")?;
+            }
+            if let Some(outcome) = &call.outcome {
+                let undefined = if call.is_undefined { "undefined: " } else { "" };
+                writeln!(f, "      → {undefined}{outcome}")?;
+            }
+        }
+        Ok(())
+    }
+}

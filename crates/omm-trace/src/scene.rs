@@ -1,0 +1,120 @@
+//! A scene: a top-level structure and all that it refers to, read once and made ready for rays.
+
+use omm_model::memory::MemoryView;
+use omm_model::vk::{DeviceAddress, GeometryInstanceFlags};
+
+use crate::bvh::{Bounds, Bvh, Planes};
+use crate::error::LoadError;
+use crate::opacity::{Micromap, TriangleOpacity};
+use crate::transform::WorldToObject;
+
+mod load;
+
+/// Instances whose transform may grow rounding errors more than this are not put into a box: every ray visits them.
+const MAX_CONDITION: f64 = (1 << 20) as f64;
+/// How much the box of an instance is grown, in parts of the largest numbers that went into it.
+const INSTANCE_MARGIN: f64 = 1.0 / (1 << 24) as f64;
+
+/// All that rays can hit: the instances of a top-level structure, their bottom-level structures, and the micromaps
+/// of these.
+///
+/// It is a copy: later changes of memory do not reach it. It can be traced from several threads at once.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    pub(crate) instances: Vec<Instance>,
+    pub(crate) blases: Vec<Blas>,
+    pub(crate) micromaps: Vec<Micromap>,
+    /// Over `instances[..boxed]`, which lie in the order of its slots.
+    pub(crate) bvh: Bvh,
+    pub(crate) boxed: usize,
+    bounds: Option<Bounds>,
+}
+
+/// An active instance that rays can reach.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instance {
+    pub(crate) to_object: WorldToObject,
+    pub(crate) blas: u32,
+    pub(crate) instance_id: u32,
+    pub(crate) custom_index: u32,
+    pub(crate) sbt_record_offset: u32,
+    pub(crate) mask: u8,
+    pub(crate) flags: GeometryInstanceFlags,
+}
+
+/// A bottom-level structure.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Blas {
+    pub(crate) geometries: Vec<Geometry>,
+    /// In the order of the slots of `triangle_bvh`.
+    pub(crate) triangles: Vec<Triangle>,
+    pub(crate) triangle_bvh: Bvh,
+    /// In the order of the slots of `aabb_bvh`.
+    pub(crate) aabbs: Vec<Aabb>,
+    pub(crate) aabb_bvh: Bvh,
+    bounds: Option<Bounds>,
+}
+
+/// What the primitives of a geometry have in common.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Geometry {
+    pub(crate) opaque: bool,
+    /// The micromap's position in the scene; `None` if there is none or it is null.
+    pub(crate) micromap: Option<u32>,
+}
+
+/// An active triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triangle {
+    pub(crate) vertices: [[f32; 3]; 3],
+    pub(crate) geometry: u32,
+    pub(crate) primitive: u32,
+    pub(crate) opacity: TriangleOpacity,
+}
+
+/// An active box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aabb {
+    pub(crate) min: [f32; 3],
+    pub(crate) max: [f32; 3],
+    pub(crate) planes: Planes,
+    pub(crate) geometry: u32,
+    pub(crate) primitive: u32,
+}
+
+impl Scene {
+    /// Reads the top-level structure at `tlas` and whatever it refers to, and builds hierarchies over it.
+    ///
+    /// Each bottom-level structure and each micromap is read once, however often it is referred to. What no ray can
+    /// hit is left out: instances without a bottom-level structure, with an empty one, or with a transform that has
+    /// no inverse (a matrix that is not finite, or whose determinant `f64` cannot tell from zero); inactive
+    /// primitives; triangles with a vertex that is not finite; boxes with a NaN or with a lower end above the upper
+    /// one.
+    ///
+    /// # Errors
+    /// The first object that cannot be read, is not of the kind wanted, lies in the bytes of another, or
+    /// contradicts another; with the way to it. What is allocated is a small multiple of the bytes read.
+    pub fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Self, LoadError> {
+        load::load(view, tlas)
+    }
+
+    /// Instances that rays can reach.
+    #[must_use]
+    pub fn instance_count(&self) -> usize {
+        self.instances.len()
+    }
+
+    /// Triangles that rays can reach, those of every instance counted.
+    #[must_use]
+    pub fn triangle_count(&self) -> u64 {
+        let blases = self.instances.iter().filter_map(|instance| self.blases.get(instance.blas as usize));
+        blases.map(|blas| blas.triangles.len() as u64).sum()
+    }
+
+    /// Lowest and highest coordinates of all that rays can reach, a little grown; `None` if there is nothing, or if
+    /// an instance's transform is too ill-conditioned to say.
+    #[must_use]
+    pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {
+        self.bounds.map(|bounds| [bounds.low, bounds.high])
+    }
+}

@@ -1,0 +1,218 @@
+//! Reading a scene out of memory.
+
+use std::collections::BTreeMap;
+
+use omm_layout::object::{BlasObject, GeometryView, MicromapObject, ObjectHeader, StoredTriangle, TlasObject};
+use omm_model::memory::MemoryView;
+use omm_model::special_index::TriangleMap;
+use omm_model::vk::{self, DeviceAddress, GeometryFlags};
+
+use super::{Aabb, Blas, Geometry, INSTANCE_MARGIN, Instance, MAX_CONDITION, Scene, Triangle};
+use crate::bvh::{Bounds, Bvh};
+use crate::error::{LoadError, LoadErrorKind, ObjectPath};
+use crate::opacity::{Micromap, TriangleOpacity};
+use crate::transform::WorldToObject;
+
+/// Triangles in a leaf of a hierarchy, at most. Boxes and instances are dearer to visit: they are alone.
+const TRIANGLES_IN_LEAF: u32 = 4;
+
+/// What was read so far.
+struct Loader<'a> {
+    view: &'a dyn MemoryView,
+    scene: Scene,
+    /// Positions in the scene, by address.
+    blases: BTreeMap<u64, u32>,
+    micromaps: BTreeMap<u64, u32>,
+    /// The first address behind each object, by its first one. Objects may not overlap, or a few bytes could pass
+    /// for many.
+    ranges: BTreeMap<u64, u64>,
+}
+
+pub(super) fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Scene, LoadError> {
+    let mut loader = Loader {
+        view,
+        scene: Scene::default(),
+        blases: BTreeMap::new(),
+        micromaps: BTreeMap::new(),
+        ranges: BTreeMap::new(),
+    };
+    let path = ObjectPath { tlas, blas: None, micromap: None };
+    let at = |kind| LoadError { at: path, kind };
+    let bytes = loader.read(tlas).map_err(at)?;
+    let object = TlasObject::read(bytes).map_err(|error| at(error.into()))?;
+
+    let (mut boxes, mut boxed, mut unboxed) = (Vec::new(), Vec::new(), Vec::new());
+    for (instance_id, instance) in (0..).zip(object.instances()) {
+        let address = DeviceAddress(instance.acceleration_structure_reference);
+        if address.is_null() {
+            continue;
+        }
+        let blas = loader.blas(ObjectPath { blas: Some((instance_id, address)), ..path }, address)?;
+        let Some(to_object) = WorldToObject::new(&instance.transform) else { continue };
+        let Some(bounds) = loader.scene.blases.get(blas as usize).and_then(|blas| blas.bounds) else { continue };
+        let reachable = Instance {
+            to_object,
+            blas,
+            instance_id,
+            custom_index: instance.instance_custom_index,
+            sbt_record_offset: instance.instance_shader_binding_table_record_offset,
+            mask: instance.mask,
+            flags: instance.flags,
+        };
+        match world_bounds(&instance.transform, &bounds).filter(|_| to_object.condition <= MAX_CONDITION) {
+            Some(bounds) => {
+                boxes.push(bounds);
+                boxed.push(reachable);
+            }
+            None => unboxed.push(reachable),
+        }
+    }
+
+    let mut scene = loader.scene;
+    scene.bvh = Bvh::build(&boxes, 1).ok_or_else(|| at(LoadErrorKind::TooMany { found: boxes.len() as u64 }))?;
+    scene.instances = in_order_of(&scene.bvh, &boxed);
+    scene.boxed = scene.instances.len();
+    scene.bounds = boxes.into_iter().reduce(Bounds::union).filter(|_| unboxed.is_empty());
+    scene.instances.append(&mut unboxed);
+    Ok(scene)
+}
+
+impl<'a> Loader<'a> {
+    /// The bytes of the object at `address`: as many as its header says.
+    fn read(&mut self, address: DeviceAddress) -> Result<&'a [u8], LoadErrorKind> {
+        let header = ObjectHeader::read(self.view.read(address, ObjectHeader::SIZE)?)?;
+        let bytes = self.view.read(address, header.size)?;
+        let (start, end) = (address.0, address.0.saturating_add(header.size));
+        let before = self.ranges.range(..end).next_back();
+        if let Some((&other, _)) = before.filter(|(_, other_end)| **other_end > start) {
+            return Err(LoadErrorKind::Overlap { start, end, other });
+        }
+        self.ranges.insert(start, end);
+        Ok(bytes)
+    }
+
+    /// The position in the scene of the bottom-level structure at `address`, to which `path` leads.
+    fn blas(&mut self, path: ObjectPath, address: DeviceAddress) -> Result<u32, LoadError> {
+        if let Some(&known) = self.blases.get(&address.0) {
+            return Ok(known);
+        }
+        let at = |kind| LoadError { at: path, kind };
+        let object = BlasObject::read(self.read(address).map_err(at)?).map_err(|error| at(error.into()))?;
+        let (mut blas, mut triangles, mut aabbs) = (Blas::default(), Vec::new(), Vec::new());
+        for (index, view) in (0..).zip(object.geometries()) {
+            let micromap = match view.micromap().map(DeviceAddress) {
+                None | Some(DeviceAddress::NULL) => None,
+                Some(address) => Some(self.micromap(ObjectPath { micromap: Some((index, address)), ..path }, address)?),
+            };
+            blas.geometries.push(Geometry { opaque: view.flags().contains(GeometryFlags::OPAQUE), micromap });
+            let micromap = micromap.and_then(|micromap| self.scene.micromaps.get(micromap as usize));
+            for triangle in view.triangles() {
+                triangles.extend(read_triangle(index, &triangle, micromap).map_err(at)?);
+            }
+            aabbs.extend(read_aabbs(index, &view));
+        }
+        blas.fill(triangles, aabbs).map_err(at)?;
+        Ok(insert(&mut self.scene.blases, &mut self.blases, address, blas))
+    }
+
+    /// The position in the scene of the micromap at `address`, to which `path` leads.
+    fn micromap(&mut self, path: ObjectPath, address: DeviceAddress) -> Result<u32, LoadError> {
+        if let Some(&known) = self.micromaps.get(&address.0) {
+            return Ok(known);
+        }
+        let at = |kind| LoadError { at: path, kind };
+        let object = MicromapObject::read(self.read(address).map_err(at)?).map_err(|error| at(error.into()))?;
+        Ok(insert(&mut self.scene.micromaps, &mut self.micromaps, address, Micromap::new(&object)))
+    }
+}
+
+/// Adds an object to the scene. 2^32 of them would not fit into memory: each takes at least 64 bytes there, and
+/// more here.
+fn insert<T>(objects: &mut Vec<T>, known: &mut BTreeMap<u64, u32>, address: DeviceAddress, object: T) -> u32 {
+    let index = objects.len() as u32;
+    objects.push(object);
+    known.insert(address.0, index);
+    index
+}
+
+/// The triangle, if rays can reach it.
+fn read_triangle(
+    geometry: u32,
+    triangle: &StoredTriangle,
+    micromap: Option<&Micromap>,
+) -> Result<Option<Triangle>, LoadErrorKind> {
+    let StoredTriangle { primitive_index: primitive, vertices, map } = *triangle;
+    let opacity = match map {
+        None => TriangleOpacity::Geometry,
+        Some(TriangleMap::SpecialIndex(index)) => TriangleOpacity::Whole(index.state()),
+        Some(TriangleMap::Triangle(found)) => {
+            let count = micromap.map_or(0, Micromap::triangle_count) as u64;
+            if u64::from(found) >= count {
+                return Err(LoadErrorKind::MicromapTriangle { geometry, primitive, found, count });
+            }
+            TriangleOpacity::Micromap(found)
+        }
+    };
+    let finite = vertices.as_flattened().iter().all(|x| x.is_finite());
+    Ok(finite.then_some(Triangle { vertices, geometry, primitive, opacity }))
+}
+
+/// The boxes of a geometry that rays can reach. Infinite ends are moved to the largest number.
+fn read_aabbs(geometry: u32, view: &GeometryView<'_>) -> impl Iterator<Item = Aabb> {
+    view.aabbs().filter_map(move |stored| {
+        let vk::AabbPositions { min_x, min_y, min_z, max_x, max_y, max_z } = stored.positions;
+        let finite = |corner: [f32; 3]| corner.map(|x| x.clamp(f32::MIN, f32::MAX));
+        let (min, max) = (finite([min_x, min_y, min_z]), finite([max_x, max_y, max_z]));
+        let proper = min.iter().zip(&max).all(|(min, max)| min <= max);
+        let primitive = stored.primitive_index;
+        proper.then_some(Aabb { min, max, planes: [[0.0; 4]; 3], geometry, primitive })
+    })
+}
+
+impl Blas {
+    /// Takes the primitives in and builds hierarchies over them.
+    fn fill(&mut self, triangles: Vec<Triangle>, aabbs: Vec<Aabb>) -> Result<(), LoadErrorKind> {
+        let corners = |corners: &[[f32; 3]]| Bounds::around(corners.iter().map(|corner| corner.map(f64::from)));
+        // All of them are finite, so none is left out.
+        let triangle_boxes: Vec<_> = triangles.iter().filter_map(|triangle| corners(&triangle.vertices)).collect();
+        let aabb_boxes: Vec<_> = aabbs.iter().filter_map(|aabb| corners(&[aabb.min, aabb.max])).collect();
+        let build = |boxes: &[Bounds], leaf| {
+            Bvh::build(boxes, leaf).ok_or(LoadErrorKind::TooMany { found: boxes.len() as u64 })
+        };
+        self.triangle_bvh = build(&triangle_boxes, TRIANGLES_IN_LEAF)?;
+        self.triangles = in_order_of(&self.triangle_bvh, &triangles);
+        self.aabb_bvh = build(&aabb_boxes, 1)?;
+        self.aabbs = in_order_of(&self.aabb_bvh, &aabbs);
+        for aabb in &mut self.aabbs {
+            if let Some(bounds) = corners(&[aabb.min, aabb.max]) {
+                aabb.planes = self.aabb_bvh.planes_of(&bounds);
+            }
+        }
+        self.bounds = triangle_boxes.into_iter().chain(aabb_boxes).reduce(Bounds::union);
+        Ok(())
+    }
+}
+
+/// Items in the order of the slots of the tree that was built over them.
+fn in_order_of<T: Copy>(bvh: &Bvh, items: &[T]) -> Vec<T> {
+    bvh.items().iter().filter_map(|&item| items.get(item as usize)).copied().collect()
+}
+
+/// A box in the scene around a box in an instance, with room for rounding on the way there and back; `None` if it
+/// is not finite.
+fn world_bounds(transform: &vk::TransformMatrix, bounds: &Bounds) -> Option<Bounds> {
+    let (mut low, mut high, mut largest) = ([0.0; 3], [0.0; 3], 0.0_f64);
+    for (axis, row) in transform.matrix.iter().enumerate() {
+        let [a, b, c, offset] = row.map(f64::from);
+        let (mut least, mut most, mut sum) = (offset, offset, 0.0);
+        for (factor, (low, high)) in [a, b, c].into_iter().zip(bounds.low.into_iter().zip(bounds.high)) {
+            least += (factor * low).min(factor * high);
+            most += (factor * low).max(factor * high);
+            sum += factor.abs();
+        }
+        (low[axis], high[axis]) = (least, most);
+        largest = largest.max(sum * bounds.largest() + offset.abs());
+    }
+    let margin = largest * INSTANCE_MARGIN;
+    Bounds::around([low.map(|x| x - margin), high.map(|x| x + margin)])
+}
