@@ -59,9 +59,12 @@ pub(crate) enum CliError {
     /// A scenario cannot be read or run.
     #[error("{0}")]
     Scenario(omm_scenario::ScenarioError),
+    /// The scenarios that `omm` carries cannot be read.
+    #[error(transparent)]
+    Library(#[from] omm_scenario::LibraryError),
     /// There is no rule of that identifier.
-    #[error("no rule in scope is, or ends in, {wanted}; `omm rules` lists them")]
-    UnknownRule { wanted: String },
+    #[error("no rule is, or ends in, {wanted}; {}`omm rules` lists them", offered(near))]
+    UnknownRule { wanted: String, near: Vec<String> },
     /// A file is not a whole number of elements long.
     #[error("{}: {size} bytes are not a multiple of {unit}, the size of an element", path.display())]
     CutShort { path: PathBuf, size: u64, unit: u64 },
@@ -92,6 +95,15 @@ pub(crate) enum CliError {
     /// The baker refuses an input.
     #[error("{input}: {source}")]
     Bake { input: String, source: BakeError },
+}
+
+/// `did you mean A, B or C? `
+fn offered(near: &[String]) -> String {
+    match near {
+        [] => String::new(),
+        [only] => format!("did you mean {only}? "),
+        [first @ .., last] => format!("did you mean {} or {last}? ", first.join(", ")),
+    }
 }
 
 impl CliError {
