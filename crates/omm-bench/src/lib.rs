@@ -2,6 +2,7 @@
 //!
 //! | room | holds |
 //! |---|---|
+//! | [`calls`] | valid calls for a validator to look at |
 //! | [`foliage`] | an alpha texture of leaves, from arithmetic alone |
 //! | [`workload`] | the texture and the triangles of one measurement |
 //! | [`clock`] | processor time of the thread, which other processes disturb less than wall time |
@@ -15,6 +16,7 @@
 //! assert_eq!(workload.uvs().len(), 3 * 16);
 //! ```
 
+pub mod calls;
 pub mod clock;
 pub mod foliage;
 pub mod peers;
