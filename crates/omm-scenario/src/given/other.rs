@@ -62,15 +62,14 @@ impl World {
             | vk::BufferUsageFlags::MICROMAP_STORAGE
             | vk::BufferUsageFlags::INDIRECT_BUFFER;
         let usage = arguments.get("usage").map_or(Ok(usual), |node| self.typed(node))?;
-        let flags: vk::BufferCreateFlags = self.typed_or_default(arguments.get("flags"))?;
+        let flags = self.typed_or_default(arguments.get("flags"))?;
         let memory_type = arguments.get("memory_type").map(Node::integer).transpose()?;
         let bound = arguments.get("bound").map_or(Ok(true), Node::boolean)?;
         let range = self.make_buffer(&BufferRequest { name, size, usage, flags, memory_type, bound }, node)?;
         if let Some(bytes) = bytes {
             self.write(range.address, &bytes, node)?;
         }
-        let with = if flags.is_empty() { String::new() } else { format!(" with {flags:?}") };
-        Ok(format!("buffer of {size} bytes{with}{}", if bound { "" } else { ", not bound" }))
+        Ok(format!("buffer of {size} bytes{}", if bound { "" } else { ", not bound" }))
     }
 
     /// `host_memory(bytes)`: memory of the application, which host commands read and write.
