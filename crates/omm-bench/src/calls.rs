@@ -329,7 +329,8 @@ mod tests {
         let last_index = Input::of(1000).indices as usize + 4 * 999;
         program.input[last_entry] = 9;
         program.input[last_index + 1] = 7;
-        for ((name, call), violations) in calls.iter().zip([1, 1, 1, 1, 16 * 8]) {
+        // No rule of the EXT extension is about the values of indices.
+        for ((name, call), violations) in calls.iter().zip([1, 1, 1, 0, 16 * 8]) {
             assert_eq!(program.validator.check(call, &program.memory()).len(), violations, "{name}");
             assert!(program.validator.check(call, &NoMemory).is_empty());
         }
