@@ -33,6 +33,7 @@ impl BoxRay {
         let origin = origin.map(|x| x * bvh.scale);
         let direction = direction.map(|x| x * bvh.scale);
         let t_scale = power_below(largest(direction));
+        let t_unit = 1.0 / t_scale;
         let distance = largest(origin);
         // Coordinates of boxes are below 2.
         let size = distance.max(2.0);
@@ -45,7 +46,8 @@ impl BoxRay {
         };
         let axes = ray.origin.iter_mut().zip(&mut ray.inverse);
         for ((slot, inverse), (x, slope)) in axes.zip(origin.into_iter().zip(direction)) {
-            let slope = slope / t_scale;
+            // Exact: the inverse of a power of two.
+            let slope = slope * t_unit;
             let parallel = slope.abs() < PARALLEL;
             let margin = if parallel { size * PARALLEL_MARGIN } else { distance * ORIGIN_MARGIN };
             *inverse = Vec4::splat(if parallel { PARALLEL_INVERSE } else { (1.0 / slope) as f32 });
