@@ -7,6 +7,7 @@
 //! | [`workload`] | the texture and the triangles of one measurement |
 //! | [`clock`] | processor time of the thread, which other processes disturb less than wall time |
 //! | [`peers`] | the same bake by this baker and by meshoptimizer, and how many states of each contradict the texture |
+//! | [`rays`] | traversal beside its hierarchy crate's own, and with micromaps beside without |
 //!
 //! ```
 //! use omm_bench::workload::Workload;
@@ -20,4 +21,5 @@ pub mod calls;
 pub mod clock;
 pub mod foliage;
 pub mod peers;
+pub mod rays;
 pub mod workload;

@@ -74,9 +74,9 @@ pub(crate) enum CliError {
     /// The simulated device had no room.
     #[error("check: {0}")]
     Check(omm_device::app::AppError),
-    /// A step of the demo failed, which has no input that could be at fault.
-    #[error("demo: {0}")]
-    Demo(Box<dyn std::error::Error + Send + Sync>),
+    /// A scene cannot be baked, built or traced.
+    #[error(transparent)]
+    Render(#[from] omm_render::RenderError),
     /// A serialized structure does not decode.
     #[error("{}: {source} (the file has {file_size} bytes)", path.display())]
     Blob { path: PathBuf, file_size: u64, source: omm_serialize::ReadError },
@@ -109,11 +109,6 @@ fn offered(near: &[String]) -> String {
 impl CliError {
     /// The exit status of every error.
     pub(crate) const EXIT_CODE: u8 = 2;
-
-    /// For `map_err`: a step of the demo failed.
-    pub(crate) fn demo(error: impl std::error::Error + Send + Sync + 'static) -> Self {
-        Self::Demo(Box::new(error))
-    }
 
     /// For `map_err`: `path` cannot be read.
     pub(crate) fn read(path: &Path) -> impl FnOnce(io::Error) -> Self {

@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use image::{ImageFormat, RgbaImage};
+use image::{ImageBuffer, ImageFormat, PixelWithColorType};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
@@ -133,7 +133,10 @@ impl OutputSet {
     }
 
     /// Adds a file `name` that holds `image` as a PNG.
-    pub(crate) fn add_png(&mut self, name: &str, image: &RgbaImage) -> Result<(), CliError> {
+    pub(crate) fn add_png<P>(&mut self, name: &str, image: &ImageBuffer<P, Vec<u8>>) -> Result<(), CliError>
+    where
+        P: PixelWithColorType<Subpixel = u8>,
+    {
         self.add(name, |out| image.write_to(out, ImageFormat::Png).map_err(io::Error::other))
     }
 
