@@ -1,4 +1,4 @@
-//! `omm diff`: how two serialized structures differ, in words.
+//! `omm diff`: how two serialized structures or two bundles differ, in words.
 
 use std::collections::HashMap;
 use std::io::Write;
@@ -8,6 +8,7 @@ use clap::Args;
 use omm_serialize::{Blob, Field};
 use serde::Serialize;
 
+use crate::bundle;
 use crate::cli::Format;
 use crate::error::{CliError, Outcome};
 use crate::inspect;
@@ -37,7 +38,10 @@ struct Difference {
 /// Runs `omm diff`.
 pub(crate) fn run(args: &DiffArgs, format: Format) -> Result<Outcome, CliError> {
     let DiffArgs { a, b } = args;
-    let (a_bytes, b_bytes) = (output::read(a)?, output::read(b)?);
+    if bundle::is_bundle(a)? && bundle::is_bundle(b)? {
+        return bundle::diff(a, b, format);
+    }
+    let (a_bytes, b_bytes) = (inspect::load(a)?, inspect::load(b)?);
     let differences = compare(&a_bytes, &inspect::read(a, &a_bytes)?.0, &b_bytes, &inspect::read(b, &b_bytes)?.0);
     match format {
         Format::Text => output::print(|out| print(&differences, out))?,
@@ -128,7 +132,8 @@ fn difference_of_bytes(a_field: &Field, a: &[u8], b_field: &Field, b: &[u8]) -> 
 
 const HELP: &str = "\
 Fields of the header, references and, for the simulated device's own data, every field of the
-payload are compared by name; the payload of a driver as bytes.
+payload are compared by name; the payload of a driver as bytes. Two bundles are compared as by
+omm bundle diff.
 
 Examples:
   omm diff before.blob after.blob
