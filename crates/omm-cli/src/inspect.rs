@@ -44,7 +44,9 @@ struct Report<'a> {
     /// What the payload holds, if it is ours.
     contents: Option<Contents>,
     /// How the writer departs from the specification.
-    departure: Option<String>,
+    departure: Option<&'static str>,
+    /// The text in the place of the driver's UUID, if that is how it departs.
+    version_text: Option<String>,
     /// All fields.
     #[serde(skip_serializing_if = "Option::is_none")]
     dump: Option<Vec<dump::Row>>,
@@ -92,7 +94,8 @@ pub(crate) fn run(args: &InspectArgs, format: Format) -> Result<Outcome, CliErro
         byte_order_certain: matches!(order, DetectedOrder::Certain(_)),
         summary: blob.summary(),
         contents: Contents::new(&blob),
-        departure: blob.departure().map(|departure| departure.explanation().to_owned()),
+        departure: blob.departure().map(|departure| departure.explanation()),
+        version_text: blob.version_text(),
         dump: args.dump.then(|| dump::rows(|visit| blob.describe(visit))),
     };
     match format {
@@ -104,7 +107,7 @@ pub(crate) fn run(args: &InspectArgs, format: Format) -> Result<Outcome, CliErro
 
 impl Report<'_> {
     fn print(&self, blob: &Blob<'_>, out: &mut dyn Write) -> std::io::Result<()> {
-        let Self { file, file_size, byte_order_certain, summary: _, contents, departure, dump: _ } = self;
+        let Self { file, file_size, byte_order_certain, summary: _, contents, departure, version_text, dump: _ } = self;
         let (prefix, kind) = (blob.prefix(), blob.kind());
         let mut line = |name: &str, value: String| writeln!(out, "{name:<19} {value}");
         let guess = if *byte_order_certain { "" } else { " (assumed: both orders give the same size)" };
@@ -123,7 +126,10 @@ impl Report<'_> {
             block.addresses().try_for_each(|address| line("", format!("  {}", Address(address))))?;
         }
         if let Some(departure) = departure {
-            line("departure", departure.clone())?;
+            line("departure", (*departure).to_owned())?;
+        }
+        if let Some(text) = version_text {
+            line("driver version", text.clone())?;
         }
         contents.as_ref().map_or(Ok(()), |contents| contents.print(out))
     }

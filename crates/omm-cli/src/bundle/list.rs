@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::Path;
 
 use omm_model::usage::MicromapUsage;
-use omm_serialize::bundle::{BundledMicromap, Source, VERSION};
-use serde::Serialize;
+use omm_serialize::bundle::{Bundle, BundledMicromap, Source, VERSION};
+use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::{hex, load, read};
@@ -97,12 +97,27 @@ impl<'a> Row<'a> {
 pub(super) fn run(path: &Path, format: Format) -> Result<Outcome, CliError> {
     let bytes = load(path)?;
     let bundle = read(path, &bytes)?;
-    let rows: Vec<_> = bundle.micromaps.iter().map(Row::new).collect();
+    let rows = Rows(&bundle);
     match format {
-        Format::Text => output::print(|out| rows.iter().try_for_each(|row| row.print(out)))?,
+        Format::Text => output::print(|out| rows.print(out))?,
         Format::Json => output::print_json(&rows)?,
     }
     Ok(Outcome::Clean)
+}
+
+/// What a list says of every micromap, made one by one.
+struct Rows<'a>(&'a Bundle<'a>);
+
+impl Rows<'_> {
+    fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        self.0.micromaps.iter().try_for_each(|micromap| Row::new(micromap).print(out))
+    }
+}
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.micromaps.iter().map(Row::new))
+    }
 }
 
 /// What `omm inspect` says of a bundle.
@@ -113,7 +128,7 @@ struct Report<'a> {
     /// Always `bundle`, where serialized data has what it is guessed to be.
     kind: &'static str,
     version: u32,
-    micromaps: Vec<Row<'a>>,
+    micromaps: Rows<'a>,
     /// All fields.
     #[serde(skip_serializing_if = "Option::is_none")]
     dump: Option<Vec<dump::Row>>,
@@ -131,14 +146,15 @@ pub(crate) fn inspect(path: &Path, dump: bool, format: Format) -> Result<Outcome
         file_size: bytes.len(),
         kind: "bundle",
         version: VERSION,
-        micromaps: bundle.micromaps.iter().map(Row::new).collect(),
+        micromaps: Rows(&bundle),
         dump: dump.then(|| dump::rows(|visit| bundle.describe(visit))),
     };
     match format {
         Format::Text => output::print(|out| {
             let Report { file, file_size, micromaps, .. } = &report;
-            writeln!(out, "{file}, {file_size} bytes: a bundle of version {VERSION}, {} micromaps", micromaps.len())?;
-            micromaps.iter().try_for_each(|row| row.print(out))
+            let count = bundle.micromaps.len();
+            writeln!(out, "{file}, {file_size} bytes: a bundle of version {VERSION}, {count} micromaps")?;
+            micromaps.print(out)
         })?,
         Format::Json => output::print_json(&report)?,
     }
