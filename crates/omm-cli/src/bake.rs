@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 use omm_bake::gltf::{self, GltfFile};
 use omm_bake::job::{self, Job};
 use omm_bake::{BakeInput, BakeOptions, BakeOutput, LevelChoice, UnknownStatePromotion, picture};
@@ -24,15 +24,15 @@ use target::Target;
 
 /// Arguments of `omm bake`.
 #[derive(Debug, Args)]
-#[command(after_help = HELP)]
+#[command(after_help = HELP, group(ArgGroup::new("target").required(true)))]
 pub(crate) struct BakeArgs {
     /// A glTF file (.gltf, .glb), of which every alpha-masked primitive is baked, or a job file (.json).
     input: PathBuf,
     /// Where results go; made if absent.
-    #[arg(long, value_name = "DIR", required_unless_present = "bundle")]
+    #[arg(long, value_name = "DIR", group = "target")]
     out: Option<PathBuf>,
     /// Put all results into one bundle and not into a folder.
-    #[arg(short = 'o', long, value_name = "FILE.omm", conflicts_with_all = ["out", "picture"])]
+    #[arg(short = 'o', long, value_name = "FILE.omm", group = "target", conflicts_with = "picture")]
     bundle: Option<PathBuf>,
     /// Also draw each texture with its microtriangles coloured by state.
     #[arg(long)]

@@ -163,6 +163,7 @@ const READINGS: [Reading; 5] =
 
 fn main() {
     memory_is_bounded_and_given_back();
+    an_array_out_of_a_bundle_costs_one_copy();
     time_is_linear();
     println!("limits: {} inputs, {} readings, all within bounds", inputs(SIZES[0]).len(), READINGS.len());
 }
@@ -182,6 +183,23 @@ fn memory_is_bounded_and_given_back() {
                 assert_eq!(after.curr_bytes, before.curr_bytes, "{reading}, {input}: everything is given back");
             }
         }
+    }
+}
+
+/// Reading lends the array; what allocates is the list of micromaps, however large they are.
+fn an_array_out_of_a_bundle_costs_one_copy() {
+    for size in SIZES {
+        let micromap = MicromapData { array: vec![7; size], ..MicromapData::default() };
+        let bytes = BundleData { micromaps: vec![micromap] }.write();
+        let profiler = dhat::Profiler::builder().testing().build();
+        let allocated = || dhat::HeapStats::get().total_bytes;
+        let before = allocated();
+        let bundle = Bundle::read(&bytes, Checksums::Verify).unwrap();
+        let read = allocated() - before;
+        let array = bundle.micromaps[0].array.to_vec();
+        let copied = allocated() - before - read;
+        drop(profiler);
+        assert!(read <= 2048 && copied == size as u64 && array.len() == size, "{read} and {copied} bytes for {size}");
     }
 }
 
