@@ -5,6 +5,7 @@
 //! | [`foliage`] | an alpha texture of leaves, from arithmetic alone |
 //! | [`workload`] | the texture and the triangles of one measurement |
 //! | [`clock`] | processor time of the thread, which other processes disturb less than wall time |
+//! | [`arguments`] | what the programs are asked |
 //! | [`copies`] | serialized data and bundles, written, read and relocated beside a copy of the same bytes |
 //! | [`peers`] | the same bake by this baker and by meshoptimizer, and how many states of each contradict the texture |
 //!
@@ -16,6 +17,7 @@
 //! assert_eq!(workload.uvs().len(), 3 * 16);
 //! ```
 
+pub mod arguments;
 pub mod clock;
 pub mod copies;
 pub mod foliage;

@@ -7,7 +7,7 @@ use clap::Args;
 use omm_serialize::blob::BlockView;
 use omm_serialize::header::BLOCK_TYPE_OPACITY_MICROMAP;
 use omm_serialize::summary::{Address, Summary};
-use omm_serialize::{Blob, DetectedOrder, ReadError, StreamError, StreamReader, byte_order};
+use omm_serialize::{Blob, Departure, DetectedOrder, ReadError, StreamError, StreamReader, byte_order};
 use serde::Serialize;
 
 use crate::bundle;
@@ -94,7 +94,7 @@ pub(crate) fn run(args: &InspectArgs, format: Format) -> Result<Outcome, CliErro
         byte_order_certain: matches!(order, DetectedOrder::Certain(_)),
         summary: blob.summary(),
         contents: Contents::new(&blob),
-        departure: blob.departure().map(|departure| departure.explanation()),
+        departure: blob.departure().map(Departure::explanation),
         version_text: blob.version_text(),
         dump: args.dump.then(|| dump::rows(|visit| blob.describe(visit))),
     };

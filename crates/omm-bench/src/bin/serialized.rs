@@ -2,34 +2,25 @@
 
 #![allow(clippy::print_stdout)]
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
+use omm_bench::arguments::{Common, Format};
 use omm_bench::copies::{CopyRow, HANDLES, MICROMAP_SIZE, measure};
 use serde_json::json;
 
 /// Compares the writing, reading and relocating of serialized data with a copy of the same bytes.
 #[derive(Parser)]
 struct Arguments {
-    /// How results are printed.
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
-    /// How often each is done; the fastest round counts.
-    #[arg(long, default_value_t = 5)]
-    rounds: u32,
+    #[command(flatten)]
+    common: Common,
     /// Bytes of a micromap.
     #[arg(long, default_value_t = MICROMAP_SIZE)]
     size: usize,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
-}
-
 fn main() {
-    let arguments = Arguments::parse();
-    let rows = measure(arguments.size, HANDLES, arguments.rounds);
-    if arguments.format == Format::Json {
+    let Arguments { common: Common { format, rounds }, size } = Arguments::parse();
+    let rows = measure(size, HANDLES, rounds);
+    if format == Format::Json {
         println!("{}", json!({ "serialized": rows }));
         return;
     }
