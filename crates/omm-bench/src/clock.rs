@@ -70,7 +70,9 @@ impl Times {
     }
 }
 
-fn thread_time() -> Option<Duration> {
+/// How long the calling thread has run, if the system tells.
+#[must_use]
+pub fn thread_time() -> Option<Duration> {
     let text = std::fs::read_to_string(THREAD_TIME).ok()?;
     Some(Duration::from_nanos(text.split_whitespace().next()?.parse().ok()?))
 }
