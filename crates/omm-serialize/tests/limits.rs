@@ -19,7 +19,7 @@ use omm_serialize::{Blob, ByteOrder, Head, StreamReader, deserialize_object, rep
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
 
-const SIZES: [usize; 3] = [1 << 12, 1 << 16, 1 << 20];
+const SIZES: [usize; 3] = [1 << 12, 1 << 16, 1 << 18];
 
 /// Sizes between which time is compared, one 64 times the other.
 const SHORT_AND_LONG: [usize; 2] = [1 << 14, 1 << 20];
