@@ -17,7 +17,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf::json;
 use json::material::{AlphaMode, Material};
@@ -52,6 +52,8 @@ pub struct GltfFile {
     pub textures: Vec<Texture>,
     /// The primitives in the order of meshes and, within a mesh, of primitives. Never empty.
     pub primitives: Vec<MaskedPrimitive>,
+    /// The files that were read: the glTF file, then those of its buffers and of the images in use, each once.
+    pub files: Vec<PathBuf>,
 }
 
 /// One primitive to bake.
@@ -112,7 +114,9 @@ pub fn read(path: &Path) -> Result<GltfFile, GltfError> {
     if primitives.is_empty() {
         return Err(container.error("meshes", GltfErrorKind::NothingToBake));
     }
-    Ok(GltfFile { textures: reader.textures, primitives })
+    let images = reader.by_image.keys().filter_map(|&index| container.root.images.get(index)?.uri.as_deref());
+    let files = container.files(images);
+    Ok(GltfFile { textures: reader.textures, primitives, files })
 }
 
 /// A material and the place where it stands.
