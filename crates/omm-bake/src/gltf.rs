@@ -2,8 +2,9 @@
 //!
 //! Every primitive whose material has `alphaMode` `MASK` becomes one thing to bake:
 //!
-//! - **Alpha** is that of the base colour texture (PNG or JPEG, embedded or in a file beside or below the glTF file), times the
-//!   alpha of `baseColorFactor`. The factor goes into the cutoff, see [`MaskedPrimitive::alpha_cutoff`]. An alpha in `COLOR_0`
+//! - **Alpha** is that of the base colour texture (any [`image`](crate::image) that is read, embedded, as a `data:` URI, or in a
+//!   file beside or below the glTF file), times the alpha of `baseColorFactor`. Where `MSFT_texture_dds` names an image, that one is
+//!   read; one of `KHR_texture_basisu` is refused, because what a shader reads of it depends on a transcoder. The factor goes into the cutoff, see [`MaskedPrimitive::alpha_cutoff`]. An alpha in `COLOR_0`
 //!   other than 1 is refused: it varies over the mesh, so no texture has it.
 //! - **Texture coordinates** are those of the set that the texture names, as floats or normalized integers, with
 //!   `KHR_texture_transform` applied in `f64` and rounded to `f32`. A shader that transforms in `f32` may differ in the last place.
@@ -13,6 +14,8 @@
 //!   [`AddressMode::Clamp`]; the magnification filter is the filter, linear where none is given. Mipmaps are not looked at.
 //!
 //! Nodes and scenes play no part: a primitive is baked once, however often it is placed.
+//!
+//! [`embed`] writes what was baked back into a glTF file; [`extras`] reads it there.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -24,17 +27,20 @@ use json::texture::{Info, MagFilter, WrappingMode};
 use json::validation::Checked;
 
 use crate::files::safe_name;
+use crate::image::{self, ImageOptions};
 use crate::sampler::{AddressMode, Filter, Sampler};
 use crate::texture::Texture;
 
 mod accessor;
 mod container;
 mod cutoff;
+mod embed;
 mod error;
-mod image;
+pub mod extras;
 mod transform;
 mod uri;
 
+pub use embed::{GltfKind, embed};
 pub use error::{GltfError, GltfErrorKind};
 
 use accessor::Elements;
@@ -55,6 +61,8 @@ pub struct GltfFile {
 pub struct MaskedPrimitive {
     /// `meshname_primN`, or `meshM_primN` for a mesh without a name: unique in the file and safe as the start of a file name.
     pub name: String,
+    /// The mesh's own name, if it has one. It may be any text.
+    pub mesh_name: Option<String>,
     /// Number of the mesh in the file.
     pub mesh: usize,
     /// Number of the primitive in the mesh.
@@ -87,22 +95,30 @@ impl MaskedPrimitive {
 
 /// Reads the alpha-masked primitives of the glTF file at `path`, with the buffers and images that it names.
 ///
+/// Of each image the mip level and the channel of `options` are read. The channel that glTF itself masks by is alpha.
+///
 /// # Errors
 /// [`GltfError`] names the file and the byte or the JSON path at which something is missing, out of range or not known, and says
 /// so if there is no primitive to bake.
-pub fn read(path: &Path) -> Result<GltfFile, GltfError> {
+pub fn read(path: &Path, options: ImageOptions) -> Result<GltfFile, GltfError> {
     let container = Container::read(path)?;
-    let mut reader =
-        Reader { container: &container, textures: Vec::new(), by_image: BTreeMap::new(), names: BTreeSet::new() };
+    let mut reader = Reader {
+        container: &container,
+        options,
+        textures: Vec::new(),
+        by_image: BTreeMap::new(),
+        names: BTreeSet::new(),
+    };
     let mut primitives = Vec::new();
     for (mesh_number, mesh) in container.root.meshes.iter().enumerate() {
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let at = format!("meshes[{mesh_number}].primitives[{number}]");
             let Some(material) = reader.masked_material(primitive, &at)? else { continue };
-            let name = mesh.name.as_deref().filter(|name| !name.is_empty());
-            let name = name.map_or_else(|| format!("mesh{mesh_number}"), safe_name);
+            let mesh_name = mesh.name.as_deref().filter(|name| !name.is_empty());
+            let name = mesh_name.map_or_else(|| format!("mesh{mesh_number}"), safe_name);
             let name = reader.unique_name(format!("{name}_prim{number}"));
-            primitives.push(reader.primitive(primitive, material, &at, (name, mesh_number, number))?);
+            let masked = reader.primitive(primitive, material, &at, (name, mesh_number, number))?;
+            primitives.push(MaskedPrimitive { mesh_name: mesh_name.map(str::to_owned), ..masked });
         }
     }
     if primitives.is_empty() {
@@ -116,6 +132,7 @@ type Located<'a> = (&'a Material, String);
 
 struct Reader<'a> {
     container: &'a Container,
+    options: ImageOptions,
     textures: Vec<Texture>,
     /// Where in `textures` the alpha of an image is.
     by_image: BTreeMap<usize, usize>,
@@ -177,6 +194,7 @@ impl<'a> Reader<'a> {
         let alpha_cutoff = cutoff::above(cutoff, factor);
         Ok(MaskedPrimitive {
             name,
+            mesh_name: None,
             mesh,
             primitive: number,
             texture,
@@ -198,25 +216,42 @@ impl<'a> Reader<'a> {
             Some(index) => self.sampler(index.value(), &format!("{at}.sampler"))?,
             None => Sampler::default(),
         };
-        // The JSON reader's mark for a source that is absent, as in a texture that only an extension gives an image.
-        let image_index = texture.source.value();
-        if image_index == u32::MAX as usize {
-            return Err(container.error(at, GltfErrorKind::NoImage));
-        }
+        let image_index = self.image_of(texture, &at)?;
         if let Some(&known) = self.by_image.get(&image_index) {
             return Ok((known, sampler));
         }
         let image = container.item(&root.images, image_index, &format!("{at}.source"))?;
         let at = format!("images[{image_index}]");
         let alpha = match (&image.uri, image.buffer_view) {
-            (Some(uri), _) => image::alpha(&uri::read(&container.file, &format!("{at}.uri"), uri)?),
-            (None, Some(view)) => image::alpha(container.view(view.value(), &format!("{at}.bufferView"))?.0),
+            (Some(uri), _) => image::read(&uri::read(&container.file, &format!("{at}.uri"), uri)?, self.options),
+            (None, Some(view)) => {
+                image::read(container.view(view.value(), &format!("{at}.bufferView"))?.0, self.options)
+            }
             (None, None) => return Err(container.error(at, GltfErrorKind::NoImage)),
         };
-        self.textures.push(alpha.map_err(|kind| container.error(at, kind))?);
+        self.textures.push(alpha.map_err(|error| container.error(at, error.into()))?);
         let index = self.textures.len() - 1;
         self.by_image.insert(image_index, index);
         Ok((index, sampler))
+    }
+
+    /// The number of the image that a program which knows the texture's extensions would read.
+    fn image_of(&self, texture: &json::texture::Texture, at: &str) -> Result<usize, GltfError> {
+        // The JSON reader's mark for a source that is absent, as in a texture that only an extension gives an image.
+        let source = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
+        let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+        let extended = |name: &str| {
+            let Some(extension) = others.and_then(|others| others.get(name)) else { return Ok(None) };
+            let index =
+                extension.get("source").and_then(json::Value::as_u64).and_then(|index| usize::try_from(index).ok());
+            let at = || format!("{at}.extensions.{name}.source");
+            index.map(Some).ok_or_else(|| self.container.error(at(), GltfErrorKind::Value))
+        };
+        match (extended("KHR_texture_basisu")?, extended("MSFT_texture_dds")?, source) {
+            (Some(_), _, Some(_)) => Err(self.container.error(at, GltfErrorKind::Basis)),
+            (Some(index), ..) | (None, Some(index), _) | (None, None, Some(index)) => Ok(index),
+            (None, None, None) => Err(self.container.error(at, GltfErrorKind::NoImage)),
+        }
     }
 
     fn sampler(&self, index: usize, at: &str) -> Result<Sampler, GltfError> {

@@ -6,6 +6,7 @@
 //! | [`workload`] | the texture and the triangles of one measurement |
 //! | [`clock`] | processor time of the thread, which other processes disturb less than wall time |
 //! | [`peers`] | the same bake by this baker and by meshoptimizer, and how many states of each contradict the texture |
+//! | [`plot`] | a figure of curves |
 //!
 //! ```
 //! use omm_bench::workload::Workload;
@@ -18,4 +19,5 @@
 pub mod clock;
 pub mod foliage;
 pub mod peers;
+pub mod plot;
 pub mod workload;

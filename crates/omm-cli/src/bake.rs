@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use omm_bake::gltf::{self, GltfFile};
+use omm_bake::image::{BlockDecoding, Channel, ImageOptions};
 use omm_bake::job::{self, Job};
 use omm_bake::{BakeInput, BakeOptions, BakeOutput, LevelChoice, UnknownStatePromotion, picture};
 use omm_model::format::OpacityMicromapFormat;
@@ -16,8 +17,12 @@ use crate::error::{CliError, Outcome};
 use crate::output::{self, OutputSet};
 use crate::progress::Progress;
 
+mod baked;
+mod report;
 mod statistics;
 
+use baked::Baked;
+pub(crate) use report::ReportError;
 use statistics::Statistics;
 
 /// Arguments of `omm bake`.
@@ -32,6 +37,21 @@ pub(crate) struct BakeArgs {
     /// Also draw each texture with its microtriangles coloured by state.
     #[arg(long)]
     picture: bool,
+    /// Also write a page about the results that opens in a browser, without a network.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Also write the glTF file with the micromaps in it, complete in itself; .gltf or .glb says which kind.
+    #[arg(long, value_name = "OUT.glb")]
+    gltf: Option<PathBuf>,
+    /// Which channel of a glTF file's images is alpha.
+    #[arg(long, value_name = "CHANNEL", default_value = "alpha")]
+    channel: ChannelArgument,
+    /// Which mip level of a glTF file's DDS and KTX2 images is baked.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    mip_level: u32,
+    /// As which device the BC3, BC4 and BC5 texels of a glTF file's images are decoded.
+    #[arg(long, value_name = "DEVICE", default_value = "specification")]
+    block_decoding: BlockDecodingArgument,
     /// Subdivision level of every triangle, 0 to 12; with --dynamic, the finest.
     #[arg(long, value_name = "L", value_parser = level)]
     level: Option<SubdivisionLevel>,
@@ -77,6 +97,30 @@ enum Promotion {
     ForceTransparent,
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ChannelArgument {
+    /// Red, or grey.
+    #[value(alias = "r")]
+    Red,
+    /// Green.
+    #[value(alias = "g")]
+    Green,
+    /// Blue.
+    #[value(alias = "b")]
+    Blue,
+    /// Alpha.
+    #[value(alias = "a")]
+    Alpha,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum BlockDecodingArgument {
+    /// The fractions that are specified.
+    Specification,
+    /// As measured on NVIDIA devices.
+    Nvidia,
+}
+
 /// A finite number above 0 as an argument.
 fn positive(text: &str) -> Result<f32, String> {
     match finite(text)? {
@@ -104,10 +148,10 @@ enum Input {
 
 impl Input {
     /// Reads a file of the kind that its first bytes or its name say.
-    fn read(path: &Path) -> Result<Self, CliError> {
+    fn read(path: &Path, options: ImageOptions) -> Result<Self, CliError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
         if name.ends_with(".gltf") || name.ends_with(".glb") || output::starts_with(path, b"glTF")? {
-            Ok(Self::Gltf(gltf::read(path)?))
+            Ok(Self::Gltf(gltf::read(path, options)?))
         } else if name.ends_with(".json") {
             Ok(Self::Job(job::read(path)?))
         } else {
@@ -119,15 +163,18 @@ impl Input {
 impl BakeArgs {
     /// Bakes everything and leaves the results in the output folder, all or none.
     fn bake(&self) -> Result<Vec<Statistics>, CliError> {
-        let input = Input::read(&self.input)?;
+        let input = Input::read(&self.input, self.image_options())?;
+        self.check_gltf(&input)?;
         let mut files = OutputSet::new(&self.out);
         // Better to find out now than after the work that the folder cannot be written.
         files.prepare()?;
-        let mut results = Vec::new();
+        let mut all = Vec::new();
         match &input {
             Input::Job(job) => {
                 let options = self.options(job.options.clone());
-                results.push(self.bake_one(&job.name, &job.input(), &options, &mut files)?);
+                let (output, statistics) = self.bake_one(&job.name, &job.input(), &options, &mut files)?;
+                let input = job.input();
+                all.push(Baked { label: None, place: None, texture: 0, input, options, output, statistics });
             }
             Input::Gltf(file) => {
                 for primitive in &file.primitives {
@@ -139,12 +186,44 @@ impl BakeArgs {
                         ..self.options(BakeOptions::default())
                     };
                     let input = BakeInput { texture, uvs: &primitive.uvs, triangles: &primitive.triangles };
-                    results.push(self.bake_one(&primitive.name, &input, &options, &mut files)?);
+                    let (output, statistics) = self.bake_one(&primitive.name, &input, &options, &mut files)?;
+                    let (label, place) = (primitive.mesh_name.as_deref(), Some((primitive.mesh, primitive.primitive)));
+                    all.push(Baked { label, place, texture: primitive.texture, input, options, output, statistics });
                 }
             }
         }
-        files.commit()?;
-        Ok(results)
+        if self.picture {
+            baked::write_atlases(&all, &mut files)?;
+        }
+        let report = self.report.as_deref().map(|path| baked::stage_report(&self.input, &all, path)).transpose()?;
+        let gltf = self.gltf.as_deref().map(|path| baked::stage_gltf(&self.input, &all, path)).transpose()?;
+        for files in [Some(files), report, gltf].into_iter().flatten() {
+            files.commit()?;
+        }
+        Ok(all.into_iter().map(|one| one.statistics).collect())
+    }
+
+    fn image_options(&self) -> ImageOptions {
+        let channel = match self.channel {
+            ChannelArgument::Red => Channel::Red,
+            ChannelArgument::Green => Channel::Green,
+            ChannelArgument::Blue => Channel::Blue,
+            ChannelArgument::Alpha => Channel::Alpha,
+        };
+        let block_decoding = match self.block_decoding {
+            BlockDecodingArgument::Specification => BlockDecoding::Specification,
+            BlockDecodingArgument::Nvidia => BlockDecoding::Nvidia,
+        };
+        ImageOptions { channel, mip_level: self.mip_level, block_decoding }
+    }
+
+    /// `--gltf` needs a glTF file to add to, and a name that says what kind is to be written.
+    fn check_gltf(&self, input: &Input) -> Result<(), CliError> {
+        match (&self.gltf, input) {
+            (Some(_), Input::Job(_)) => Err(CliError::GltfOfJob { path: self.input.clone() }),
+            (Some(path), _) if baked::gltf_kind(path).is_none() => Err(CliError::UnknownOutput { path: path.clone() }),
+            _ => Ok(()),
+        }
     }
 
     /// `options` with those of the command line in their place.
@@ -182,7 +261,7 @@ impl BakeArgs {
         input: &BakeInput<'_>,
         options: &BakeOptions,
         files: &mut OutputSet,
-    ) -> Result<Statistics, CliError> {
+    ) -> Result<(BakeOutput, Statistics), CliError> {
         let since = std::time::Instant::now();
         let bar = Progress::new(name, 0);
         let progress = |at: omm_bake::Progress| bar.set(at.done, at.total);
@@ -196,7 +275,7 @@ impl BakeArgs {
             let picture = picture::overlay(input, options.sampler, &output);
             files.add_png(&format!("{name}.overlay.png"), &picture)?;
         }
-        Ok(statistics)
+        Ok((output, statistics))
     }
 }
 
@@ -232,13 +311,16 @@ Results, for a job its name, for a glTF primitive MESH_primN:
   NAME.index.bin     for each triangle of the mesh: i32, a micromap triangle or a special index
   NAME.stats.json    what was counted
   NAME.overlay.png   the picture
+  textureN.atlas.png all primitives that read the texture, where there are several
 
 A glTF file's alphaCutoff, alpha factor, texture transform and sampler are honoured, and its
 levels are chosen as with --dynamic 2 --level 8. The order of a triangle's vertices matters:
-build the geometry from the same indices.
+build the geometry from the same indices. Images are PNG, JPEG, TGA, DDS or KTX2; block-compressed
+ones are decoded as a device does.
 
 Examples:
   omm bake model.glb --out baked --picture
+  omm bake model.glb --out baked --report report.html --gltf model-omm.glb
   omm bake model.glb --out baked --level 5 --state 2
   omm bake leaf.job.json --out baked --format json
 
