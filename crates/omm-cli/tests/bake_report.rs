@@ -105,6 +105,21 @@ fn the_report_opens_in_a_browser() {
     // Each of the three viewers has fitted its picture and says how large it is shown.
     assert_eq!(document.matches("transform: translate(").count(), 3);
     assert_eq!(document.matches(" %</output>").count(), 3);
+    let changed = |text: &str, name: &str| {
+        folder.write(name, text);
+        open(browser, &profile, &folder.path(name), "--dump-dom")
+    };
+    // Buttons and keys zoom, each by a half. What was added to the page runs only without its policy.
+    let text = String::from_utf8(folder.read("report.html")).unwrap();
+    let added = "<script>addEventListener('load', () => { document.title = 'changed'; \
+                 const press = action => document.querySelector(`[data-action=${action}]`).click(); press('one'); press('in'); \
+                 document.querySelector('.stage').dispatchEvent(new KeyboardEvent('keydown', { key: '+' })); })</script></body>";
+    let tampered = text.replace("</body>", added);
+    assert!(changed(&tampered, "tampered.html").contains("<title>Opacity micromaps of scene.glb</title>"));
+    let (before, rest) = tampered.split_once("<meta http-equiv").unwrap();
+    let open_page = [before, rest.split_once('>').unwrap().1].concat();
+    let pressed = changed(&open_page, "pressed.html");
+    assert!(pressed.contains("<title>changed</title>") && pressed.contains(">225 %</output>"));
     let picture = folder.path("page.png");
     open(browser, &profile, &page, &format!("--screenshot={}", picture.display()));
     let picture = image::open(&picture).unwrap().to_rgb8();
