@@ -2,7 +2,7 @@
 //!
 //! Every primitive whose material has `alphaMode` `MASK` becomes one thing to bake:
 //!
-//! - **Alpha** is that of the base colour texture (any [`image`](crate::image) that is read, embedded, as a `data:` URI, or in a
+//! - **Alpha** is that of the base colour texture (any [`image`] that is read, embedded, as a `data:` URI, or in a
 //!   file beside or below the glTF file), times the alpha of `baseColorFactor`. Where `MSFT_texture_dds` names an image, that one is
 //!   read; one of `KHR_texture_basisu` is refused, because what a shader reads of it depends on a transcoder. The factor goes into the cutoff, see [`MaskedPrimitive::alpha_cutoff`]. An alpha in `COLOR_0`
 //!   other than 1 is refused: it varies over the mesh, so no texture has it.

@@ -340,6 +340,12 @@ mod tests {
         for odd in [f32::NAN, f32::INFINITY, f32::MAX, -f32::MAX, 1e-40, 1e9] {
             for uvs in [[[odd, 0.0], [1.0, odd], [0.0, 1.0]], [[odd; 2]; 3], [[odd, 0.0], [odd, 1.0], [odd, 0.5]]] {
                 let (width, height) = picture(&uvs, 1).dimensions();
+                let texture = Texture::unorm8(2, 1, vec![0, 255]).unwrap();
+                let input = BakeInput { texture: &texture, uvs: &uvs, triangles: &[[0, 1, 2]] };
+                let output = bake(&input, &BakeOptions::default(), &|_| {}).unwrap();
+                if let Some(picture) = close_up(&input, Sampler::default(), &output) {
+                    assert_eq!(picture.dimensions(), (CLOSE_UP[0], CLOSE_UP[1]));
+                }
                 assert!(width.max(height) >= 512 && width.max(height) <= 2048, "{odd}: {width} x {height}");
             }
         }

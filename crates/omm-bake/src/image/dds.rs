@@ -1,6 +1,6 @@
 //! DDS files.
 
-use ddsfile::{Caps2, D3DFormat, Dds, DxgiFormat};
+use ddsfile::{Caps2, D3DFormat, Dds, DxgiFormat, MiscFlag};
 
 use super::block::BlockFormat;
 use super::error::ImageError;
@@ -14,10 +14,12 @@ pub(super) fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, Image
     if dds.header.depth.is_some_and(|depth| depth > 1) {
         return shape("a volume");
     }
-    if dds.header.caps2.contains(Caps2::CUBEMAP) {
+    let newer = dds.header10.as_ref();
+    if dds.header.caps2.contains(Caps2::CUBEMAP) || newer.is_some_and(|h| h.misc_flag.contains(MiscFlag::TEXTURECUBE)) {
         return shape("a cube map");
     }
-    if dds.get_num_array_layers() > 1 {
+    // The crate's own count of layers overflows where a file claims too many.
+    if newer.is_some_and(|header| header.array_size > 1) {
         return shape("an array");
     }
     let (format, srgb, name) = format(&dds)?;

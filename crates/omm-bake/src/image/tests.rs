@@ -173,6 +173,20 @@ fn what_is_not_read_is_said() {
     }
 }
 
+/// Found by changing bytes: the library multiplies the claimed layers by the six faces of a cube.
+#[test]
+fn dds_layers_and_faces_are_only_claims() {
+    let with = |layers: u32, faces: u8| {
+        let mut bytes = dxgi(DxgiFormat::BC2_UNorm, 4, 4, 1, &BC2);
+        // Miscellaneous flags and the size of the array, in the header of the newer kind.
+        bytes[136] = faces;
+        bytes[140..144].copy_from_slice(&layers.to_le_bytes());
+        refused(&bytes, ALPHA)
+    };
+    assert_eq!(with(u32::MAX, 0), "the image is an array; only single 2D textures are read");
+    assert_eq!(with(u32::MAX, 4), "the image is a cube map; only single 2D textures are read");
+}
+
 #[test]
 fn claims_are_held_against_the_data() {
     let dds = dxgi(DxgiFormat::BC7_UNorm, 16_384, 16_384, 1, &BC2);
@@ -204,13 +218,15 @@ proptest! {
         channel in 0_usize..4,
         mip_level in prop_oneof![0_u32..3, any::<u32>()],
     ) {
-        let frame = ruzstd::encoding::compress_to_vec(BC2.as_slice(), ruzstd::encoding::CompressionLevel::Fastest);
+        // Repeated and random bytes, so that the frame has literals and sequences.
+        let grey: Vec<u8> = (0..4096_u32).map(|n| if n % 100 < 60 { (n % 7) as u8 } else { (n * n >> 5) as u8 & 15 }).collect();
+        let frame = ruzstd::encoding::compress_to_vec(grey.as_slice(), ruzstd::encoding::CompressionLevel::Fastest);
         let zstd = Some(SupercompressionScheme::Zstandard);
         let mut bytes = match which {
             0 => dxgi(DxgiFormat::BC7_UNorm, 4, 4, 1, &BC2),
             1 => d3d(D3DFormat::DXT5, 4, 4, &BC2),
             2 => ktx(Some(Format::BC6H_SFLOAT_BLOCK), [4, 4], None, &[&BC2]),
-            3 => ktx(Some(Format::BC2_UNORM_BLOCK), [4, 4], zstd, &[&frame]),
+            3 => ktx(Some(Format::R8_UNORM), [64, 64], zstd, &[&frame]),
             _ => [&[0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 32, 8][..], &[0x9f, 1, 2, 3, 4, 0x9f, 1, 2, 3, 4]].concat(),
         };
         for (place, value) in changes {
