@@ -12,8 +12,8 @@
 //! | 16-bit unorm | the value over 65535, rounded once to `f32` |
 //! | 32-bit float | the value |
 //!
-//! Devices need not agree with the specification's fractions, and some do not: see [`BlockDecoding`]. Of the other formats they
-//! must, and an H200 did for a million texels each of BC1 alpha, BC2 alpha and BC7 alpha.
+//! Devices need not agree with the specification's fractions of BC1 to BC5, and some do not: see [`BlockDecoding`]. BC1 alpha, BC2
+//! alpha and BC7 have none, and an NVIDIA H200 gave these alphas for a million texels of random blocks each.
 //!
 //! Alpha has no transfer function: in sRGB formats it is taken as it is stored. A colour channel of an sRGB format of DDS or KTX2
 //! is refused, because no specification says to the last bit what a sampler makes of it. PNG, JPEG and TGA files do not say how
@@ -49,8 +49,10 @@ pub enum Channel {
 
 /// How a device makes values between the ends of a block of BC3 alpha, BC4 or BC5.
 ///
-/// The specification gives fractions, but Direct3D lets a device be off by a 255th and 3 % of the distance between the ends, and
-/// NVIDIA's are: 0.375 where the fraction is 2/5. A bake is sound for the devices that decode as it did.
+/// The specification gives fractions, but devices are allowed some tolerance, and [they use it][1]: an NVIDIA device has 0.375 of
+/// the way where the fraction is 2/5. A bake is sound for the devices that decode as it did.
+///
+/// [1]: https://fgiesen.wordpress.com/2021/10/04/gpu-bcn-decoding/
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BlockDecoding {

@@ -18,7 +18,7 @@ pub struct Panel {
 const WIDTH: f64 = 300.0;
 const HEIGHT: f64 = 250.0;
 /// Space around a panel's plot: left, top, right, bottom.
-const MARGIN: [f64; 4] = [54.0, 44.0, 14.0, 46.0];
+const MARGIN: [f64; 4] = [54.0, 44.0, 22.0, 46.0];
 
 /// The figure of `panels`, with the same scale of milliseconds in each.
 ///

@@ -29,7 +29,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let arguments = Arguments::parse();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build()?;
     let panels = pool.install(panels)?;
-    let caption = "One thread, foliage texture, linear filter; dashed: in proportion";
+    let caption =
+        "One thread, foliage texture, linear filter; dashed: in proportion to microtriangles, texels, triangles";
     std::fs::write(&arguments.out, figure(&panels, caption)?)?;
     Ok(())
 }
@@ -37,14 +38,14 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
 fn panels() -> Result<Vec<Panel>, Box<dyn Error + Send + Sync>> {
     let base = Workload { name: "growth", texture_side: 1024, triangles: 64, level: 6, uv_size: 0.1 };
     let levels = (2..=10).map(|level| (4_f64.powi(level as i32), Workload { level, ..base }));
-    let sides = (8..=13).map(|bits| (f64::from(1 << bits), Workload { texture_side: 1 << bits, ..base }));
+    let sides = (8..=13).map(|bits| (4_f64.powi(bits), Workload { texture_side: 1 << bits, ..base }));
     let counts = (4..=14).step_by(2).map(|bits| {
         let triangles = 1 << bits;
         (f64::from(triangles), Workload { triangles, level: 4, uv_size: 0.02, ..base })
     });
     Ok(vec![
         panel("Level", "level (4^N microtriangles)", levels, |count| (count.ln() / 4_f64.ln()).round().to_string())?,
-        panel("Texture", "texels along a side", sides, |side| side.to_string())?,
+        panel("Texture", "side of the texture in texels", sides, |texels| texels.sqrt().to_string())?,
         panel("Triangles", "triangles at level 4", counts, |count| count.to_string())?,
     ])
 }

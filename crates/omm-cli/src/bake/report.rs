@@ -312,6 +312,15 @@ mod tests {
     }
 
     #[test]
+    fn the_style_sheet_has_the_colours_of_the_pictures() {
+        for state in OpacityState::ALL {
+            let [r, g, b] = picture::colour(state);
+            let rule = format!("--{}: #{r:02x}{g:02x}{b:02x};", class(state));
+            assert!(STYLE.contains(&rule), "{rule}");
+        }
+    }
+
+    #[test]
     fn numbers_are_grouped() {
         assert_eq!([0, 999, 1000, 1_234_567].map(grouped), ["0", "999", "1\u{202f}000", "1\u{202f}234\u{202f}567"]);
         assert_eq!(percent(0, 0), 0.0);

@@ -70,7 +70,7 @@ mod tests {
         }
     }
 
-    /// Never further from the specification than Direct3D's tolerance of a step and 3 % of the distance.
+    /// Never further from the specification than a 255th and 3 % of the distance between the ends.
     #[test]
     fn close_to_the_specification() {
         for (a, b) in (0..=255_u8).flat_map(|a| (0..=255_u8).map(move |b| (a, b))) {
