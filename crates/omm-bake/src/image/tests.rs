@@ -219,7 +219,7 @@ proptest! {
         mip_level in prop_oneof![0_u32..3, any::<u32>()],
     ) {
         // Repeated and random bytes, so that the frame has literals and sequences.
-        let grey: Vec<u8> = (0..4096_u32).map(|n| if n % 100 < 60 { (n % 7) as u8 } else { (n * n >> 5) as u8 & 15 }).collect();
+        let grey: Vec<u8> = (0..4096_u32).map(|n| if n % 100 < 60 { (n % 7) as u8 } else { ((n * n) >> 5) as u8 & 15 }).collect();
         let frame = ruzstd::encoding::compress_to_vec(grey.as_slice(), ruzstd::encoding::CompressionLevel::Fastest);
         let zstd = Some(SupercompressionScheme::Zstandard);
         let mut bytes = match which {
