@@ -2,8 +2,9 @@
 //!
 //! Every primitive whose material has `alphaMode` `MASK` becomes one thing to bake:
 //!
-//! - **Alpha** is that of the base colour texture (PNG or JPEG, embedded or in a file beside or below the glTF file), times the
-//!   alpha of `baseColorFactor`. The factor goes into the cutoff, see [`MaskedPrimitive::alpha_cutoff`]. An alpha in `COLOR_0`
+//! - **Alpha** is that of the base colour texture (any [`image`] that is read, embedded, as a `data:` URI, or in a
+//!   file beside or below the glTF file), times the alpha of `baseColorFactor`. Where `MSFT_texture_dds` names an image, that one is
+//!   read; one of `KHR_texture_basisu` is refused, because what a shader reads of it depends on a transcoder. The factor goes into the cutoff, see [`MaskedPrimitive::alpha_cutoff`]. An alpha in `COLOR_0`
 //!   other than 1 is refused: it varies over the mesh, so no texture has it.
 //! - **Texture coordinates** are those of the set that the texture names, as floats or normalized integers, with
 //!   `KHR_texture_transform` applied in `f64` and rounded to `f32`. A shader that transforms in `f32` may differ in the last place.
@@ -14,6 +15,8 @@
 //!
 //! Nodes and scenes play no part in baking: a primitive is baked once, however often it is placed. [`read_scene`] reads them, and all
 //! that is not masked, for those who want to look.
+//!
+//! [`embed`] writes what was baked back into a glTF file; [`extras`] reads it there.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,18 +29,21 @@ use json::texture::{Info, MagFilter, WrappingMode};
 use json::validation::Checked;
 
 use crate::files::safe_name;
+use crate::image::{self, ImageOptions};
 use crate::sampler::{AddressMode, Filter, Sampler};
 use crate::texture::Texture;
 
 mod accessor;
 mod container;
 mod cutoff;
+mod embed;
 mod error;
-mod image;
+pub mod extras;
 mod scene;
 mod transform;
 mod uri;
 
+pub use embed::{GltfKind, embed};
 pub use error::{GltfError, GltfErrorKind};
 pub use scene::{GltfCamera, GltfPlacement, GltfScene, Mask, Matrix, ScenePrimitive, read_scene};
 
@@ -61,6 +67,8 @@ pub struct GltfFile {
 pub struct MaskedPrimitive {
     /// `meshname_primN`, or `meshM_primN` for a mesh without a name: unique in the file and safe as the start of a file name.
     pub name: String,
+    /// The mesh's own name, if it has one. It may be any text.
+    pub mesh_name: Option<String>,
     /// Number of the mesh in the file.
     pub mesh: usize,
     /// Number of the primitive in the mesh.
@@ -93,22 +101,30 @@ impl MaskedPrimitive {
 
 /// Reads the alpha-masked primitives of the glTF file at `path`, with the buffers and images that it names.
 ///
+/// Of each image the mip level and the channel of `options` are read. The channel that glTF itself masks by is alpha.
+///
 /// # Errors
 /// [`GltfError`] names the file and the byte or the JSON path at which something is missing, out of range or not known, and says
 /// so if there is no primitive to bake.
-pub fn read(path: &Path) -> Result<GltfFile, GltfError> {
+pub fn read(path: &Path, options: ImageOptions) -> Result<GltfFile, GltfError> {
     let container = Container::read(path)?;
-    let mut reader =
-        Reader { container: &container, textures: Vec::new(), by_image: BTreeMap::new(), names: BTreeSet::new() };
+    let mut reader = Reader {
+        container: &container,
+        options,
+        textures: Vec::new(),
+        by_image: BTreeMap::new(),
+        names: BTreeSet::new(),
+    };
     let mut primitives = Vec::new();
     for (mesh_number, mesh) in container.root.meshes.iter().enumerate() {
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let at = format!("meshes[{mesh_number}].primitives[{number}]");
             let Some(material) = reader.masked_material(primitive, &at)? else { continue };
-            let name = mesh.name.as_deref().filter(|name| !name.is_empty());
-            let name = name.map_or_else(|| format!("mesh{mesh_number}"), safe_name);
+            let mesh_name = mesh.name.as_deref().filter(|name| !name.is_empty());
+            let name = mesh_name.map_or_else(|| format!("mesh{mesh_number}"), safe_name);
             let name = reader.unique_name(format!("{name}_prim{number}"));
-            primitives.push(reader.primitive(primitive, material, &at, (name, mesh_number, number))?);
+            let masked = reader.primitive(primitive, material, &at, (name, mesh_number, number))?;
+            primitives.push(MaskedPrimitive { mesh_name: mesh_name.map(str::to_owned), ..masked });
         }
     }
     if primitives.is_empty() {
@@ -124,6 +140,7 @@ type Located<'a> = (&'a Material, String);
 
 struct Reader<'a> {
     container: &'a Container,
+    options: ImageOptions,
     textures: Vec<Texture>,
     /// Where in `textures` the alpha of an image is.
     by_image: BTreeMap<usize, usize>,
@@ -185,6 +202,7 @@ impl<'a> Reader<'a> {
         let alpha_cutoff = cutoff::above(cutoff, factor);
         Ok(MaskedPrimitive {
             name,
+            mesh_name: None,
             mesh,
             primitive: number,
             texture,
@@ -203,8 +221,8 @@ impl<'a> Reader<'a> {
             return Ok((known, sampler));
         }
         let bytes = self.image_bytes(image_index)?;
-        let alpha = image::alpha(&bytes).map_err(|kind| self.container.error(format!("images[{image_index}]"), kind));
-        self.textures.push(alpha?);
+        let fail = |error: image::ImageError| self.container.error(format!("images[{image_index}]"), error.into());
+        self.textures.push(image::read(&bytes, self.options).map_err(fail)?);
         let index = self.textures.len() - 1;
         self.by_image.insert(image_index, index);
         Ok((index, sampler))
@@ -219,11 +237,7 @@ impl<'a> Reader<'a> {
             Some(index) => self.sampler(index.value(), &format!("{at}.sampler"))?,
             None => Sampler::default(),
         };
-        // The JSON reader's mark for a source that is absent, as in a texture that only an extension gives an image.
-        let image_index = texture.source.value();
-        if image_index == u32::MAX as usize {
-            return Err(container.error(at, GltfErrorKind::NoImage));
-        }
+        let image_index = self.image_of(texture, &at)?;
         container.item(&container.root.images, image_index, &format!("{at}.source"))?;
         Ok((image_index, sampler))
     }
@@ -237,6 +251,25 @@ impl<'a> Reader<'a> {
             (Some(uri), _) => Ok(uri::read(&container.file, &format!("{at}.uri"), uri)?.into()),
             (None, Some(view)) => Ok(container.view(view.value(), &format!("{at}.bufferView"))?.0.into()),
             (None, None) => Err(container.error(at, GltfErrorKind::NoImage)),
+        }
+    }
+
+    /// The number of the image that a program which knows the texture's extensions would read.
+    fn image_of(&self, texture: &json::texture::Texture, at: &str) -> Result<usize, GltfError> {
+        // The JSON reader's mark for a source that is absent, as in a texture that only an extension gives an image.
+        let source = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
+        let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+        let extended = |name: &str| {
+            let Some(extension) = others.and_then(|others| others.get(name)) else { return Ok(None) };
+            let index =
+                extension.get("source").and_then(json::Value::as_u64).and_then(|index| usize::try_from(index).ok());
+            let at = || format!("{at}.extensions.{name}.source");
+            index.map(Some).ok_or_else(|| self.container.error(at(), GltfErrorKind::Value))
+        };
+        match (extended("KHR_texture_basisu")?, extended("MSFT_texture_dds")?, source) {
+            (Some(_), _, Some(_)) => Err(self.container.error(at, GltfErrorKind::Basis)),
+            (Some(index), ..) | (None, Some(index), _) | (None, None, Some(index)) => Ok(index),
+            (None, None, None) => Err(self.container.error(at, GltfErrorKind::NoImage)),
         }
     }
 

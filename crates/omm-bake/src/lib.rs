@@ -11,7 +11,7 @@
 //! | [`texel_triangle`] | a triangle's texture coordinates in texels, rounded and exact |
 //! | [`classify`](mod@classify) | the decision for one microtriangle, and the proof of its error bounds |
 //! | [`level`], [`promotion`] | how finely a triangle is split; which unknown state a mixed microtriangle gets |
-//! | `job`, `gltf`, `picture` | with the feature `files`: what is baked, from files; pictures of what was baked |
+//! | `job`, `gltf`, `image`, `picture` | with the feature `files`: what is baked, from files; pictures of what was baked |
 //! | [`bake`](mod@bake), [`options`], [`statistics`], [`error`] | everything for a mesh: array, triangles, index buffer, histograms, counts |
 //!
 //! # Example
@@ -55,6 +55,8 @@ mod exact;
 mod files;
 #[cfg(feature = "files")]
 pub mod gltf;
+#[cfg(feature = "files")]
+pub mod image;
 #[cfg(feature = "files")]
 pub mod job;
 pub mod level;

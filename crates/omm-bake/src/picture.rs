@@ -1,4 +1,10 @@
-//! A picture of what was baked: the texture in grey, each microtriangle tinted by its state.
+//! Pictures of what was baked: the texture in grey, each microtriangle tinted by its state.
+//!
+//! | picture | shows |
+//! |---|---|
+//! | [`overlay`] | one mesh on its texture |
+//! | [`atlas`] | all meshes that read one texture |
+//! | [`close_up`] | a part of the contour, enlarged until the edges of microtriangles are apart |
 //!
 //! The colours are those of the integration guide: opaque green, transparent blue, unknown transparent pink, unknown opaque yellow.
 
@@ -17,12 +23,10 @@ use crate::options::BakeInput;
 use crate::sampler::{AddressMode, Sampler};
 use crate::texture::Texture;
 
-/// The longer side of a picture is at least this many pixels.
-const LEAST_SIDE: f64 = 512.0;
-/// No side of a picture is longer, in pixels.
-const MOST_SIDE: f64 = 2048.0;
-/// The shorter side of a picture of a narrow strip is at least this many pixels.
-const LEAST_SHORT_SIDE: f64 = 16.0;
+mod view;
+
+use view::View;
+
 /// Edges are drawn where parallel ones are at least this many pixels apart; closer ones would hide the colours.
 const LEAST_SPACING: f64 = 4.0;
 
@@ -37,6 +41,15 @@ pub const fn colour(state: OpacityState) -> [u8; 3] {
     }
 }
 
+/// A mesh and what was baked from it.
+#[derive(Clone, Copy, Debug)]
+pub struct Layer<'a> {
+    /// What was baked.
+    pub input: BakeInput<'a>,
+    /// What came out.
+    pub output: &'a BakeOutput,
+}
+
 /// Draws `output`, which was baked from `input` under `sampler`.
 ///
 /// The picture shows the texture coordinates 0 to 1, or all that the triangles use if some lie outside of that, *v* downwards. Its
@@ -44,8 +57,40 @@ pub const fn colour(state: OpacityState) -> [u8; 3] {
 /// last one is seen. Triangles without area, or with coordinates that are not finite, are not drawn.
 #[must_use]
 pub fn overlay(input: &BakeInput<'_>, sampler: Sampler, output: &BakeOutput) -> RgbaImage {
-    let view = View::new(input);
-    let triangles = shapes(input, output, &view);
+    let layers = [Layer { input: *input, output }];
+    draw(input.texture, sampler, &View::new(input.texture, &layers), &layers)
+}
+
+/// Draws all of `layers`, as [`overlay`] does one, over `texture`, which they all read.
+#[must_use]
+pub fn atlas(texture: &Texture, sampler: Sampler, layers: &[Layer<'_>]) -> RgbaImage {
+    draw(texture, sampler, &View::new(texture, layers), layers)
+}
+
+/// Draws a part of what [`overlay`] shows, [`CLOSE_UP`] pixels large, around the unknown microtriangle in the middle of the mesh's
+/// triangle that has most of them. Its microtriangles are at least 12 pixels wide. `None` if no microtriangle is unknown.
+#[must_use]
+pub fn close_up(input: &BakeInput<'_>, sampler: Sampler, output: &BakeOutput) -> Option<RgbaImage> {
+    let layers = [Layer { input: *input, output }];
+    let texels = View::texels(input.texture);
+    let most = shapes(&layers, &texels).max_by_key(|shape| shape.unknown().count())?;
+    let unknown: Vec<_> = most.unknown().collect();
+    let [u, v] = curve::MicroTriangle::new(most.level, *unknown.get(unknown.len() / 2)?)?.centroid().map(f64::from);
+    let apart = most.apart().into_iter().fold(f64::INFINITY, f64::min);
+    let centre = most.point(u, v);
+    let view = texels.around(centre, (CLOSE_UP_SPACING / apart).clamp(1.0, MOST_ZOOM));
+    Some(draw(input.texture, sampler, &view, &layers))
+}
+
+/// Width and height of a [`close_up`].
+pub const CLOSE_UP: [u32; 2] = [768, 480];
+/// Pixels of a [`close_up`] along a texel, at most.
+const MOST_ZOOM: f64 = 2048.0;
+/// Pixels between parallel edges of a [`close_up`].
+const CLOSE_UP_SPACING: f64 = 12.0;
+
+fn draw(texture: &Texture, sampler: Sampler, view: &View, layers: &[Layer<'_>]) -> RgbaImage {
+    let shapes: Vec<_> = shapes(layers, view).collect();
     let mut picture = RgbaImage::new(view.size[0], view.size[1]);
     let row_bytes = view.size[0] as usize * 4;
     let rows: &mut [u8] = &mut picture;
@@ -53,11 +98,11 @@ pub fn overlay(input: &BakeInput<'_>, sampler: Sampler, output: &BakeOutput) -> 
         let y = y as f64 + 0.5;
         for (x, pixel) in row.as_chunks_mut::<4>().0.iter_mut().enumerate() {
             let [u, v] = view.texture_coordinates([x as f64 + 0.5, y]);
-            let grey = grey(input.texture, sampler, u, v);
+            let grey = grey(texture, sampler, u, v);
             // The last byte keeps the grey below the tints until the row is done.
             *pixel = [grey; 4];
         }
-        for shape in triangles.iter().filter(|shape| shape.low[1] <= y && y <= shape.high[1]) {
+        for shape in shapes.iter().filter(|shape| shape.low[1] <= y && y <= shape.high[1]) {
             shape.draw(row, y);
         }
         for [.., alpha] in row.as_chunks_mut::<4>().0 {
@@ -65,50 +110,6 @@ pub fn overlay(input: &BakeInput<'_>, sampler: Sampler, output: &BakeOutput) -> 
         }
     });
     picture
-}
-
-/// Which part of texture space is shown, and how large.
-struct View {
-    /// The least u and v.
-    low: [f64; 2],
-    /// Pixels for a unit of u and of v.
-    scale: [f64; 2],
-    /// Width and height in pixels.
-    size: [u32; 2],
-}
-
-impl View {
-    fn new(input: &BakeInput<'_>) -> Self {
-        let (mut low, mut high) = ([0.0, 0.0], [1.0, 1.0]);
-        let used = input.triangles.iter().flatten().filter_map(|&vertex| input.uvs.get(vertex as usize));
-        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for uv in used.filter(|uv| uv.iter().all(|x| x.is_finite())) {
-            for (axis, &x) in uv.iter().enumerate() {
-                least[axis] = least[axis].min(x.into());
-                most[axis] = most[axis].max(x.into());
-            }
-        }
-        if (0..2).any(|axis| least[axis] < 0.0 || most[axis] > 1.0) {
-            (low, high) = (least, most);
-        }
-        let texels = [input.texture.width(), input.texture.height()].map(f64::from);
-        // A box without width would have no scale.
-        let extent = [0, 1].map(|axis| (high[axis] - low[axis]).max(f64::EPSILON));
-        let wanted = [0, 1].map(|axis| extent[axis] * texels[axis]);
-        let longer = wanted[0].max(wanted[1]);
-        let zoom = longer.clamp(LEAST_SIDE, MOST_SIDE) / longer;
-        let size = wanted.map(|side| (side * zoom).round().clamp(LEAST_SHORT_SIDE, MOST_SIDE));
-        let scale = [0, 1].map(|axis| size[axis] / extent[axis]);
-        Self { low, scale, size: size.map(|side| side as u32) }
-    }
-
-    fn texture_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [x / self.scale[0] + self.low[0], y / self.scale[1] + self.low[1]]
-    }
-
-    fn pixels(&self, [u, v]: [f32; 2]) -> [f64; 2] {
-        [(f64::from(u) - self.low[0]) * self.scale[0], (f64::from(v) - self.low[1]) * self.scale[1]]
-    }
 }
 
 /// The alpha of the texel at (u, v), as grey.
@@ -127,6 +128,9 @@ struct Shape<'a> {
     low: [f64; 2],
     high: [f64; 2],
     origin: [f64; 2],
+    /// From the origin to the other two corners.
+    along: [f64; 2],
+    across: [f64; 2],
     /// The barycentrics u and v grow by so much for each pixel to the right and down.
     gradients: [[f64; 2]; 2],
     states: States<'a>,
@@ -140,18 +144,21 @@ enum States<'a> {
     Each { data: &'a [u8], format: OpacityMicromapFormat },
 }
 
-/// The triangles that have an area, in order, those that look the same only once.
-fn shapes<'a>(input: &BakeInput<'_>, output: &'a BakeOutput, view: &View) -> Vec<Shape<'a>> {
-    let mut seen = HashSet::new();
-    let mut shapes = Vec::new();
-    for (corners, map) in input.triangles.iter().zip(output.triangle_maps()) {
-        let [Some(&a), Some(&b), Some(&c)] = corners.map(|vertex| input.uvs.get(vertex as usize)) else { continue };
-        let bits = [a, b, c].map(|uv| uv.map(f32::to_bits));
-        if seen.insert((bits, map)) {
-            shapes.extend(Shape::new([a, b, c].map(|uv| view.pixels(uv)), map, output));
-        }
-    }
-    shapes
+/// The triangles that have an area, in order, those of a layer that look the same only once.
+fn shapes<'a>(layers: &[Layer<'a>], view: &View) -> impl Iterator<Item = Shape<'a>> {
+    layers.iter().flat_map(move |&Layer { input, output }| {
+        let mut seen = HashSet::new();
+        input.triangles.iter().zip(output.triangle_maps()).filter_map(move |(corners, map)| {
+            let [Some(&a), Some(&b), Some(&c)] = corners.map(|vertex| input.uvs.get(vertex as usize)) else {
+                return None;
+            };
+            let bits = [a, b, c].map(|uv| uv.map(f32::to_bits));
+            if !seen.insert((bits, map)) {
+                return None;
+            }
+            Shape::new([a, b, c].map(|uv| view.pixels(uv)), map, output)
+        })
+    })
 }
 
 impl<'a> Shape<'a> {
@@ -172,16 +179,31 @@ impl<'a> Shape<'a> {
             }
         };
         let fold = |pick: fn(f64, f64) -> f64| [0, 1].map(|axis| pick(pick(a[axis], b[axis]), c[axis]));
-        let segments = f64::from(level.segments());
-        let apart = directions(gradients).map(|[x, y]| 1.0 / ((x * x + y * y).sqrt() * segments));
-        Some(Self {
-            low: fold(f64::min),
-            high: fold(f64::max),
-            origin: a,
-            gradients,
-            states,
-            level,
-            edges: apart.into_iter().all(|pixels| pixels >= LEAST_SPACING),
+        let (low, high) = (fold(f64::min), fold(f64::max));
+        let mut shape = Self { low, high, origin: a, along, across, gradients, states, level, edges: false };
+        shape.edges = shape.apart().into_iter().all(|pixels| pixels >= LEAST_SPACING);
+        Some(shape)
+    }
+
+    /// Pixels between parallel edges of microtriangles, in each of the three directions.
+    fn apart(&self) -> [f64; 3] {
+        let segments = f64::from(self.level.segments());
+        directions(self.gradients).map(|[x, y]| 1.0 / ((x * x + y * y).sqrt() * segments))
+    }
+
+    /// The pixel at barycentrics (u, v).
+    fn point(&self, u: f64, v: f64) -> [f64; 2] {
+        [0, 1].map(|axis| self.origin[axis] + u * self.along[axis] + v * self.across[axis])
+    }
+
+    /// The unknown microtriangles, by index.
+    fn unknown(&self) -> impl Iterator<Item = u32> {
+        (0..self.level.microtriangles()).filter(|&index| {
+            let state = match self.states {
+                States::One(state) => Some(state),
+                States::Each { data, format } => format.state(data, index.into()),
+            };
+            state.is_some_and(|state| !state.is_known())
         })
     }
 
@@ -273,6 +295,37 @@ mod tests {
     }
 
     #[test]
+    fn an_atlas_shows_every_layer() {
+        let texture = Texture::unorm8(2, 1, vec![0, 255]).unwrap();
+        let sampler = Sampler::new(AddressMode::Clamp, Filter::Nearest, 0.0);
+        let options = BakeOptions { sampler, ..BakeOptions::default() };
+        let halves = [[[0.0, 0.0], [0.4, 0.0], [0.0, 1.0]], [[0.6, 0.0], [1.0, 0.0], [1.0, 1.0]]];
+        let inputs = halves.each_ref().map(|uvs| BakeInput { texture: &texture, uvs, triangles: &[[0, 1, 2]] });
+        let outputs = inputs.map(|input| bake(&input, &options, &|_| {}).unwrap());
+        let layers = [0, 1].map(|layer| Layer { input: inputs[layer], output: &outputs[layer] });
+        let picture = atlas(&texture, sampler, &layers);
+        assert_eq!(picture.get_pixel(40, 20), &tinted(OpacityState::Transparent, 0));
+        assert_eq!(picture.get_pixel(490, 20), &tinted(OpacityState::Opaque, 255));
+        assert_eq!(picture.get_pixel(256, 20), &Rgba([255, 255, 255, 255]));
+        // Nothing is unknown, so there is no contour to look at.
+        assert!(close_up(&inputs[0], sampler, &outputs[0]).is_none());
+    }
+
+    #[test]
+    fn a_close_up_shows_edges_around_an_unknown_microtriangle() {
+        let texture = Texture::unorm8(2, 1, vec![0, 255]).unwrap();
+        let uvs = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let input = BakeInput { texture: &texture, uvs: &uvs, triangles: &[[0, 1, 2]] };
+        let sampler = Sampler::new(AddressMode::Clamp, Filter::Linear, 0.0);
+        let level = LevelChoice::Uniform(SubdivisionLevel::new(8).unwrap());
+        let output = bake(&input, &BakeOptions { level, sampler, ..BakeOptions::default() }, &|_| {}).unwrap();
+        let picture = close_up(&input, sampler, &output).unwrap();
+        assert_eq!(picture.dimensions(), (CLOSE_UP[0], CLOSE_UP[1]));
+        let [r, g, b, _] = picture.get_pixel(CLOSE_UP[0] / 2, CLOSE_UP[1] / 2).0;
+        assert!(r > 120 && b < r && g > 60, "unknown states are yellow or pink: {r} {g} {b}");
+    }
+
+    #[test]
     fn coordinates_outside_0_to_1_widen_the_view() {
         let wide = picture(&[[-1.0, 0.0], [3.0, 0.0], [-1.0, 2.0]], 0);
         assert_eq!(wide.dimensions(), (512, 128));
@@ -287,6 +340,12 @@ mod tests {
         for odd in [f32::NAN, f32::INFINITY, f32::MAX, -f32::MAX, 1e-40, 1e9] {
             for uvs in [[[odd, 0.0], [1.0, odd], [0.0, 1.0]], [[odd; 2]; 3], [[odd, 0.0], [odd, 1.0], [odd, 0.5]]] {
                 let (width, height) = picture(&uvs, 1).dimensions();
+                let texture = Texture::unorm8(2, 1, vec![0, 255]).unwrap();
+                let input = BakeInput { texture: &texture, uvs: &uvs, triangles: &[[0, 1, 2]] };
+                let output = bake(&input, &BakeOptions::default(), &|_| {}).unwrap();
+                if let Some(picture) = close_up(&input, Sampler::default(), &output) {
+                    assert_eq!(picture.dimensions(), (CLOSE_UP[0], CLOSE_UP[1]));
+                }
                 assert!(width.max(height) >= 512 && width.max(height) <= 2048, "{odd}: {width} x {height}");
             }
         }

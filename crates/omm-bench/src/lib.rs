@@ -10,6 +10,7 @@
 //! | [`copies`] | serialized data and bundles, written, read and relocated beside a copy of the same bytes |
 //! | [`peers`] | the same bake by this baker and by meshoptimizer, and how many states of each contradict the texture |
 //! | [`rays`] | traversal beside its hierarchy crate's own, and with micromaps beside without |
+//! | [`plot`] | a figure of curves |
 //!
 //! ```
 //! use omm_bench::workload::Workload;
@@ -25,5 +26,6 @@ pub mod clock;
 pub mod copies;
 pub mod foliage;
 pub mod peers;
+pub mod plot;
 pub mod rays;
 pub mod workload;

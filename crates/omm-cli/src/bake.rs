@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args, ValueEnum};
 use omm_bake::gltf::{self, GltfFile};
+use omm_bake::image::{BlockDecoding, Channel, ImageOptions};
 use omm_bake::job::{self, Job};
-use omm_bake::{BakeInput, BakeOptions, BakeOutput, LevelChoice, UnknownStatePromotion, picture};
+use omm_bake::{BakeInput, BakeOptions, BakeOutput, LevelChoice, UnknownStatePromotion};
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 
@@ -16,9 +17,13 @@ use crate::error::{CliError, Outcome};
 use crate::output::{self, OutputSet};
 use crate::progress::Progress;
 
+mod baked;
+mod report;
 mod statistics;
 mod target;
 
+use baked::Baked;
+pub(crate) use report::ReportError;
 use statistics::Statistics;
 use target::Target;
 
@@ -37,6 +42,21 @@ pub(crate) struct BakeArgs {
     /// Also draw each texture with its microtriangles coloured by state.
     #[arg(long)]
     picture: bool,
+    /// Also write a page about the results that opens in a browser, without a network.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Also write the glTF file with the micromaps in it, complete in itself; .gltf or .glb says which kind.
+    #[arg(long, value_name = "OUT.glb")]
+    gltf: Option<PathBuf>,
+    /// Which channel of a glTF file's images is alpha.
+    #[arg(long, value_name = "CHANNEL", default_value = "alpha")]
+    channel: ChannelArgument,
+    /// Which mip level of a glTF file's DDS and KTX2 images is baked.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    mip_level: u32,
+    /// As which device the BC3, BC4 and BC5 texels of a glTF file's images are decoded.
+    #[arg(long, value_name = "DEVICE", default_value = "specification")]
+    block_decoding: BlockDecodingArgument,
     /// Subdivision level of every triangle, 0 to 12; with --dynamic, the finest.
     #[arg(long, value_name = "L", value_parser = level)]
     level: Option<SubdivisionLevel>,
@@ -82,6 +102,30 @@ enum Promotion {
     ForceTransparent,
 }
 
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ChannelArgument {
+    /// Red, or grey.
+    #[value(alias = "r")]
+    Red,
+    /// Green.
+    #[value(alias = "g")]
+    Green,
+    /// Blue.
+    #[value(alias = "b")]
+    Blue,
+    /// Alpha.
+    #[value(alias = "a")]
+    Alpha,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum BlockDecodingArgument {
+    /// The fractions that are specified.
+    Specification,
+    /// As measured on NVIDIA devices.
+    Nvidia,
+}
+
 /// A finite number above 0 as an argument.
 fn positive(text: &str) -> Result<f32, String> {
     match finite(text)? {
@@ -109,10 +153,10 @@ enum Input {
 
 impl Input {
     /// Reads a file of the kind that its first bytes or its name say.
-    fn read(path: &Path) -> Result<Self, CliError> {
+    fn read(path: &Path, options: ImageOptions) -> Result<Self, CliError> {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
         if name.ends_with(".gltf") || name.ends_with(".glb") || output::starts_with(path, b"glTF")? {
-            Ok(Self::Gltf(gltf::read(path)?))
+            Ok(Self::Gltf(gltf::read(path, options)?))
         } else if name.ends_with(".json") {
             Ok(Self::Job(job::read(path)?))
         } else {
@@ -132,13 +176,16 @@ impl Input {
 impl BakeArgs {
     /// Bakes everything and leaves the results in their place, which it names: all or none.
     fn bake(&self) -> Result<(Vec<Statistics>, PathBuf), CliError> {
-        let input = Input::read(&self.input)?;
+        let input = Input::read(&self.input, self.image_options())?;
+        self.check_gltf(&input)?;
         let mut files = Target::new(self, &input)?;
-        let mut results = Vec::new();
+        let mut all = Vec::new();
         match &input {
             Input::Job(job) => {
                 let options = self.options(job.options.clone());
-                results.push(self.bake_one(&job.name, &job.input(), &options, &mut files)?);
+                let (output, statistics) = self.bake_one(&job.name, &job.input(), &options)?;
+                let input = job.input();
+                all.push(Baked { label: None, place: None, texture: 0, input, options, output, statistics });
             }
             Input::Gltf(file) => {
                 for primitive in &file.primitives {
@@ -150,11 +197,50 @@ impl BakeArgs {
                         ..self.options(BakeOptions::default())
                     };
                     let input = BakeInput { texture, uvs: &primitive.uvs, triangles: &primitive.triangles };
-                    results.push(self.bake_one(&primitive.name, &input, &options, &mut files)?);
+                    let (output, statistics) = self.bake_one(&primitive.name, &input, &options)?;
+                    let (label, place) = (primitive.mesh_name.as_deref(), Some((primitive.mesh, primitive.primitive)));
+                    all.push(Baked { label, place, texture: primitive.texture, input, options, output, statistics });
                 }
             }
         }
-        Ok((results, files.commit()?))
+        if self.picture {
+            files.add_pictures(&all)?;
+        }
+        let report = self.report.as_deref().map(|path| baked::stage_report(&self.input, &all, path)).transpose()?;
+        let gltf = self.gltf.as_deref().map(|path| baked::stage_gltf(&self.input, &all, path)).transpose()?;
+        let mut results = Vec::new();
+        for one in all {
+            files.add(one.output, &one.statistics)?;
+            results.push(one.statistics);
+        }
+        let place = files.commit()?;
+        for files in [report, gltf].into_iter().flatten() {
+            files.commit()?;
+        }
+        Ok((results, place))
+    }
+
+    fn image_options(&self) -> ImageOptions {
+        let channel = match self.channel {
+            ChannelArgument::Red => Channel::Red,
+            ChannelArgument::Green => Channel::Green,
+            ChannelArgument::Blue => Channel::Blue,
+            ChannelArgument::Alpha => Channel::Alpha,
+        };
+        let block_decoding = match self.block_decoding {
+            BlockDecodingArgument::Specification => BlockDecoding::Specification,
+            BlockDecodingArgument::Nvidia => BlockDecoding::Nvidia,
+        };
+        ImageOptions { channel, mip_level: self.mip_level, block_decoding }
+    }
+
+    /// `--gltf` needs a glTF file to add to, and a name that says what kind is to be written.
+    fn check_gltf(&self, input: &Input) -> Result<(), CliError> {
+        match (&self.gltf, input) {
+            (Some(_), Input::Job(_)) => Err(CliError::GltfOfJob { path: self.input.clone() }),
+            (Some(path), _) if baked::gltf_kind(path).is_none() => Err(CliError::UnknownOutput { path: path.clone() }),
+            _ => Ok(()),
+        }
     }
 
     /// `options` with those of the command line in their place.
@@ -191,8 +277,7 @@ impl BakeArgs {
         name: &str,
         input: &BakeInput<'_>,
         options: &BakeOptions,
-        files: &mut Target,
-    ) -> Result<Statistics, CliError> {
+    ) -> Result<(BakeOutput, Statistics), CliError> {
         let since = std::time::Instant::now();
         let bar = Progress::new(name, 0);
         let progress = |at: omm_bake::Progress| bar.set(at.done, at.total);
@@ -200,9 +285,7 @@ impl BakeArgs {
             .map_err(|source| CliError::Bake { input: format!("{}: {name}", self.input.display()), source })?;
         drop(bar);
         let statistics = Statistics::new(name, input, options, &output, since.elapsed());
-        let picture = self.picture.then(|| picture::overlay(input, options.sampler, &output));
-        files.add(name, output, &statistics, picture.as_ref())?;
-        Ok(statistics)
+        Ok((output, statistics))
     }
 }
 
@@ -238,14 +321,17 @@ Results, for a job its name, for a glTF primitive MESH_primN:
   NAME.index.bin     for each triangle of the mesh: i32, a micromap triangle or a special index
   NAME.stats.json    what was counted
   NAME.overlay.png   the picture
+  textureN.atlas.png all primitives that read the texture, where there are several
 With -o they go into one bundle instead, with the digests of the files that were read.
 
 A glTF file's alphaCutoff, alpha factor, texture transform and sampler are honoured, and its
 levels are chosen as with --dynamic 2 --level 8. The order of a triangle's vertices matters:
-build the geometry from the same indices.
+build the geometry from the same indices. Images are PNG, JPEG, TGA, DDS or KTX2; block-compressed
+ones are decoded as a device does.
 
 Examples:
   omm bake model.glb --out baked --picture
+  omm bake model.glb --out baked --report report.html --gltf model-omm.glb
   omm bake model.glb --out baked --level 5 --state 2
   omm bake leaf.job.json --out baked --format json
   omm bake model.glb -o model.omm

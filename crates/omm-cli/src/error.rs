@@ -47,6 +47,15 @@ pub(crate) enum CliError {
     /// The input of `bake` is of no kind that it knows.
     #[error("{}: neither glTF (.gltf, .glb) nor a job file (.json)", path.display())]
     UnknownInput { path: PathBuf },
+    /// The kind of a glTF file to write cannot be told from its name.
+    #[error("{}: neither .gltf nor .glb", path.display())]
+    UnknownOutput { path: PathBuf },
+    /// There is no glTF file to which the results could be added.
+    #[error("{}: --gltf adds to a glTF file, which a job is not", path.display())]
+    GltfOfJob { path: PathBuf },
+    /// A report cannot be written.
+    #[error("report: {0}")]
+    Report(crate::bake::ReportError),
     /// A job file or a file that it names is bad.
     #[error(transparent)]
     Job(#[from] JobError),

@@ -71,6 +71,70 @@ fn the_cutoff_is_the_material_s_unless_one_is_given() {
     assert_eq!(states(json!(1.5), &["--cutoff", "0"]), opaque);
 }
 
+/// A DDS file of 4 x 4 texels of DXT3, whose alpha is `alpha` of 15.
+fn dds(alpha: u8) -> Vec<u8> {
+    let mut header = [0_u32; 32];
+    header[0] = u32::from_le_bytes(*b"DDS ");
+    // Size and flags, height and width, then the pixel format's size and flags, and its name.
+    header[1..5].copy_from_slice(&[124, 0x1007, 4, 4]);
+    header[19..22].copy_from_slice(&[32, 4, u32::from_le_bytes(*b"DXT3")]);
+    header[27] = 0x1000;
+    let mut bytes: Vec<u8> = header.iter().flat_map(|word| word.to_le_bytes()).collect();
+    bytes.extend([[alpha * 0x11; 8], [0; 8]].concat());
+    bytes
+}
+
+#[test]
+fn block_compressed_images_and_channels() {
+    let folder = with(|json| json["images"][0] = json!({ "uri": "leaf.dds" }));
+    let special = |alpha: u8, options: &[&str]| {
+        folder.write("leaf.dds", dds(alpha));
+        let options: Vec<_> = ["--format", "json"].into_iter().chain(options.iter().copied()).collect();
+        folder.bake("quad.glb", &options).json()[0]["special_indices"].clone()
+    };
+    assert_eq!(special(8, &[])["opaque"], json!(2));
+    assert_eq!(special(7, &[])["transparent"], json!(2));
+    assert_eq!(special(7, &["--block-decoding", "nvidia"])["transparent"], json!(2));
+    // The colours are black.
+    assert_eq!(special(15, &["--channel", "red"])["transparent"], json!(2));
+    std::fs::remove_dir_all(folder.path("out")).unwrap();
+    assert_eq!(
+        folder.refused("quad.glb", &["--mip-level", "1"]),
+        "quad.glb: images[0]: there is no mip level 1: the image has 1"
+    );
+}
+
+#[test]
+fn the_gltf_comes_back_with_its_micromaps() {
+    let folder = with(|_| ());
+    for name in ["again.glb", "again.gltf"] {
+        let target = folder.path(name);
+        folder.bake("quad.glb", &["--level", "2", "--gltf", target.to_str().unwrap()]).clean();
+        let found = omm_bake::gltf::extras::micromaps(&target).unwrap();
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].array, folder.read("out/leaf_prim0.array.bin"));
+        let indices: Vec<u8> = found[0].indices.iter().flat_map(|index| index.to_le_bytes()).collect();
+        assert_eq!(indices, folder.read("out/leaf_prim0.index.bin"));
+        // It bakes as the original does.
+        let first = folder.read("out/leaf_prim0.array.bin");
+        folder.bake(name, &["--level", "2"]).clean();
+        assert_eq!(folder.read("out/leaf_prim0.array.bin"), first);
+    }
+    std::fs::remove_dir_all(folder.path("out")).unwrap();
+    assert_eq!(folder.refused("quad.glb", &["--gltf", "model.obj"]), "model.obj: neither .gltf nor .glb");
+}
+
+#[test]
+fn textures_that_are_shared_get_an_overview() {
+    let folder = with(|json| {
+        let mesh = json["meshes"][0].clone();
+        json["meshes"].as_array_mut().unwrap().push(mesh);
+    });
+    folder.bake("quad.glb", &["--picture"]).clean();
+    let pictures: Vec<_> = names(&folder.path("out")).into_iter().filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(pictures, ["leaf_prim0.overlay.png", "leaf_prim0_2.overlay.png", "texture0.atlas.png"]);
+}
+
 #[test]
 fn bad_files_are_one_error_and_leave_nothing() {
     assert_eq!(
@@ -87,7 +151,7 @@ fn bad_files_are_one_error_and_leave_nothing() {
     assert!(absent.starts_with("quad.glb: images[0].uri: cannot read: absent.png: "), "{absent}");
     assert_eq!(
         refused(|json| json["images"][0] = json!({ "uri": "data:image/webp;base64,UklGRgAAAABXRUJQ" })),
-        "quad.glb: images[0]: neither a PNG nor a JPEG image: it starts with [52, 49, 46, 46, 00, 00, 00, 00]"
+        "quad.glb: images[0]: not a PNG, JPEG, TGA, DDS or KTX2 image: it starts with [52, 49, 46, 46, 00, 00, 00, 00]"
     );
     assert_eq!(
         refused(|json| json["images"][0] = json!({ "uri": "../up.png" })),

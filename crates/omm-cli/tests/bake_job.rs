@@ -181,6 +181,10 @@ fn names_cannot_leave_the_folder() {
 #[test]
 fn bad_jobs_are_one_error_and_leave_nothing() {
     let (folder, job) = small();
+    assert_eq!(
+        folder.refused("half.job.json", &["--gltf", "out.glb"]),
+        "half.job.json: --gltf adds to a glTF file, which a job is not"
+    );
     let with = |pointer: &str, value: Value| {
         let mut job = job.clone();
         *job.pointer_mut(pointer).unwrap() = value;

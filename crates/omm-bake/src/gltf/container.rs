@@ -9,8 +9,11 @@ use super::uri;
 use crate::files;
 
 /// Extensions that a file may require: those honoured here and those that change only how things look otherwise.
-const KNOWN_EXTENSIONS: [&str; 5] = [
+const KNOWN_EXTENSIONS: [&str; 7] = [
     "KHR_texture_transform",
+    // A texture that uses it is refused where it is read, with more to say.
+    "KHR_texture_basisu",
+    "MSFT_texture_dds",
     "KHR_mesh_quantization",
     "KHR_materials_unlit",
     "KHR_materials_specular",
@@ -21,6 +24,8 @@ const KNOWN_EXTENSIONS: [&str; 5] = [
 pub(super) struct Container {
     pub(super) file: PathBuf,
     pub(super) root: Root,
+    /// The text that `root` was read from.
+    pub(super) json: Vec<u8>,
     buffers: Vec<Vec<u8>>,
     /// Bytes of the file and of all buffers.
     pub(super) total_bytes: u64,
@@ -39,7 +44,8 @@ impl Container {
                 return Err(fail(&format!("extensionsRequired[{position}]"), GltfErrorKind::Extension { name }));
             }
         }
-        let mut container = Self { file: file.into(), root, buffers: Vec::new(), total_bytes: bytes.len() as u64 };
+        let mut container =
+            Self { file: file.into(), root, json: json.to_vec(), buffers: Vec::new(), total_bytes: bytes.len() as u64 };
         container.read_buffers(binary)?;
         Ok(container)
     }
@@ -74,6 +80,11 @@ impl Container {
             }
         }
         files
+    }
+
+    /// The contents of buffer `index`; nothing if there is none.
+    pub(super) fn buffer(&self, index: usize) -> &[u8] {
+        self.buffers.get(index).map_or(&[], Vec::as_slice)
     }
 
     /// The error `kind` at `at` in this file.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gltf::json;
 
-use crate::texture::TextureError;
+use crate::image::ImageError;
 
 /// What is wrong with a glTF file, and where.
 #[derive(Debug, thiserror::Error)]
@@ -180,28 +180,59 @@ pub enum GltfErrorKind {
     #[error("alphaMode is MASK, but there is no baseColorTexture to bake")]
     NoTexture,
     /// A texture names no image that is known.
-    #[error("the texture names no PNG or JPEG image")]
+    #[error("the texture names no image that is known")]
     NoImage,
-    /// The image is neither PNG nor JPEG.
-    #[error("neither a PNG nor a JPEG image: it starts with {start:02x?}")]
-    ImageFormat {
-        /// Its first bytes.
-        start: Vec<u8>,
+    /// The image cannot be read.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// The texture's image is one of Basis Universal, and there is another for programs that do not know it.
+    #[error(
+        "the texture has a KHR_texture_basisu image, which is not decoded: if your engine reads that, transcode it and bake from the result; \
+         if it reads the other image, remove the extension"
+    )]
+    Basis,
+    /// A block of micromaps has a version other than [`VERSION`](super::extras::VERSION).
+    #[error("version {found} of the block; only version {} is known", super::extras::VERSION)]
+    ExtrasVersion {
+        /// The version found.
+        found: u32,
     },
-    /// The image claims more pixels than its data can hold.
-    #[error("{width} x {height} pixels are claimed, more than {bytes} bytes can hold")]
-    ImageSize {
-        /// Width claimed.
-        width: u32,
-        /// Height claimed.
-        height: u32,
-        /// Bytes of the image file.
+    /// The usage counts of a block of micromaps are not those of its data.
+    #[error("the counts are not those of the triangles and indices")]
+    ExtrasCounts,
+    /// A buffer view of a block of micromaps does not end with a whole item.
+    #[error("{found} bytes are not a multiple of {unit}")]
+    ExtrasLength {
+        /// Bytes of the buffer view.
+        found: usize,
+        /// Bytes of an item.
+        unit: usize,
+    },
+    /// A triangle of a block of micromaps is none, or leaves the data.
+    #[error("micromap triangle {number}: {reason}")]
+    ExtrasTriangle {
+        /// Number of the triangle.
+        number: usize,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// An index of a block of micromaps names no triangle and is not special.
+    #[error("index {position} is {found}, but there are {triangles} micromap triangles")]
+    ExtrasIndex {
+        /// Position of the index.
+        position: usize,
+        /// The index found.
+        found: i32,
+        /// Number of micromap triangles.
+        triangles: usize,
+    },
+    /// There is no room for a block of micromaps: a primitive's `extras` are no object.
+    #[error("the extras are no JSON object, so nothing can be added to them")]
+    ExtrasKind,
+    /// A binary container cannot be so large.
+    #[error("{bytes} bytes are more than a .glb can have")]
+    TooLarge {
+        /// Bytes of the whole file.
         bytes: usize,
     },
-    /// The image cannot be decoded.
-    #[error("{0}")]
-    Image(#[source] image::ImageError),
-    /// The image does not make a texture.
-    #[error(transparent)]
-    Texture(#[from] TextureError),
 }

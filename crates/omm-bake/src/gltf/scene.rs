@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use ::image::RgbImage;
+use ::image::{Rgb, RgbImage};
 use gltf::json;
 use json::mesh::{Mode, Primitive, Semantic};
 use json::validation::Checked;
@@ -17,7 +17,8 @@ use json::validation::Checked;
 use super::accessor::Elements;
 use super::container::Container;
 use super::error::{GltfError, GltfErrorKind};
-use super::{MaskedPrimitive, Reader, image};
+use super::{MaskedPrimitive, Reader};
+use crate::image::{self, Channel, ImageError, ImageOptions};
 use crate::sampler::Sampler;
 use crate::texture::Texture;
 
@@ -78,6 +79,7 @@ pub fn read_scene(path: &Path) -> Result<GltfScene, GltfError> {
     let mut reader = SceneReader {
         masks: Reader {
             container: &container,
+            options: ImageOptions::default(),
             textures: Vec::new(),
             by_image: BTreeMap::new(),
             names: BTreeSet::new(),
@@ -184,11 +186,25 @@ impl SceneReader<'_> {
         }
         let container = self.masks.container;
         let bytes = self.masks.image_bytes(image_index)?;
-        let colours = image::colours(&bytes).map_err(|kind| container.error(format!("images[{image_index}]"), kind))?;
-        self.images.push(colours);
+        let fail = |error: ImageError| container.error(format!("images[{image_index}]"), error.into());
+        self.images.push(colours(&bytes).map_err(fail)?);
         self.by_image.insert(image_index, self.images.len() - 1);
         Ok((self.images.len() - 1, sampler))
     }
+}
+
+/// The colours of an image, 8 bits a channel. Those of sRGB formats of DDS and KTX2, which are not read, are white.
+fn colours(bytes: &[u8]) -> Result<RgbImage, ImageError> {
+    let [red, green, blue] = [Channel::Red, Channel::Green, Channel::Blue]
+        .map(|channel| image::read(bytes, ImageOptions { channel, ..ImageOptions::default() }));
+    let [red, green, blue] = match (red, green, blue) {
+        (Err(ImageError::SrgbColour { .. }), ..) => return Ok(RgbImage::from_pixel(1, 1, Rgb([255; 3]))),
+        (red, green, blue) => [red?, green?, blue?],
+    };
+    let value = |texture: &Texture, x, y| (255.0 * texture.alpha(x, y).unwrap_or(1.0)).round() as u8;
+    Ok(RgbImage::from_fn(red.width(), red.height(), |x, y| {
+        Rgb([&red, &green, &blue].map(|channel| value(channel, x, y)))
+    }))
 }
 
 #[cfg(test)]

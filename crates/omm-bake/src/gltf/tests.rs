@@ -57,7 +57,7 @@ fn read_bytes(bytes: &[u8]) -> Result<GltfFile, GltfError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("quad.glb");
     std::fs::write(&path, bytes).unwrap();
-    read(&path).map_err(|mut error| {
+    read(&path, ImageOptions::default()).map_err(|mut error| {
         error.file = PathBuf::from(error.file.file_name().unwrap());
         error
     })
@@ -145,6 +145,31 @@ fn sparse_accessors_replace_elements() {
     assert_eq!(text, "quad.glb: accessors[0].count: 1000000000000 elements are claimed without a buffer view");
 }
 
+/// Two textures of one image share its texels; extensions name other images.
+#[test]
+fn images_are_read_once_and_by_the_extension_that_names_them() {
+    let (mut json, binary) = quad();
+    json["images"] = json!([json["images"][0], { "uri": "absent.dds" }]);
+    json["textures"] = json!([{ "source": 0 }, { "source": 0, "sampler": 0 }]);
+    let surface = |texture: u32| json!({ "alphaMode": "MASK", "pbrMetallicRoughness": { "baseColorTexture": { "index": texture } } });
+    json["materials"] = json!([surface(0), surface(1)]);
+    let mut second = json["meshes"][0]["primitives"][0].clone();
+    second["material"] = json!(1);
+    json["meshes"][0]["primitives"].as_array_mut().unwrap().push(second);
+    let file = read_bytes(&glb(&json, &binary)).unwrap();
+    assert_eq!((file.textures.len(), file.primitives.len()), (1, 2));
+    json["textures"][0] = json!({ "source": 0, "extensions": { "MSFT_texture_dds": { "source": 1 } } });
+    let text = read_bytes(&glb(&json, &binary)).unwrap_err().to_string();
+    assert!(text.starts_with("quad.glb: images[1].uri: cannot read: "), "{text}");
+    json["textures"][0] = json!({ "extensions": { "MSFT_texture_dds": { "source": "one" } } });
+    let text = read_bytes(&glb(&json, &binary)).unwrap_err().to_string();
+    assert!(text.starts_with("quad.glb: textures[0].extensions.MSFT_texture_dds.source: not a value"), "{text}");
+    json["textures"][0] = json!({ "source": 0, "extensions": { "KHR_texture_basisu": { "source": 1 } } });
+    json["extensionsRequired"] = json!(["KHR_texture_basisu"]);
+    let text = read_bytes(&glb(&json, &binary)).unwrap_err().to_string();
+    assert!(text.contains("textures[0]: the texture has a KHR_texture_basisu image"), "{text}");
+}
+
 #[test]
 fn equal_names_become_unique() {
     let primitive = json!({ "attributes": { "TEXCOORD_0": 0 }, "indices": 1, "material": 0 });
@@ -199,13 +224,13 @@ fn what_is_wrong_is_named_with_its_path() {
         ),
         ("/samplers/0/wrapS", json!(1), "samplers[0].wrapS: not a value"),
         ("/samplers/0/magFilter", json!(1), "samplers[0].magFilter: not a value"),
-        ("/textures/0", json!({}), "textures[0]: the texture names no PNG or JPEG image"),
+        ("/textures/0", json!({}), "textures[0]: the texture names no image that is known"),
         ("/textures/0/source", json!(7), "textures[0].source: index 7 is out of range: there are 1"),
-        ("/images/0", json!({}), "images[0]: the texture names no PNG or JPEG image"),
+        ("/images/0", json!({}), "images[0]: the texture names no image that is known"),
         ("/images/0", json!({ "uri": "absent.png" }), "images[0].uri: cannot read: "),
         ("/images/0", json!({ "uri": "../up.png" }), "leaves the folder of the glTF file"),
-        ("/images/0", json!({ "uri": "data:;base64,AAAA" }), "images[0]: neither a PNG nor a JPEG image"),
-        ("/images/0/bufferView", json!(0), "images[0]: neither a PNG nor a JPEG image"),
+        ("/images/0", json!({ "uri": "data:;base64,AAAA" }), "images[0]: not a PNG, JPEG, TGA, DDS or KTX2 image"),
+        ("/images/0/bufferView", json!(0), "images[0]: not a PNG, JPEG, TGA, DDS or KTX2 image"),
         ("/bufferViews/2/byteLength", json!(60), "images[0]: "),
         ("/bufferViews/0/byteLength", json!(16), "accessors[0]: bytes 0..32 leave the 16 bytes of the buffer view"),
         (

@@ -3,6 +3,10 @@
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+
 use super::error::{GltfError, GltfErrorKind};
 use crate::files;
 
@@ -22,13 +26,14 @@ pub(super) fn read(file: &Path, at: &str, uri: &str) -> Result<Vec<u8>, GltfErro
     })
 }
 
-fn is_data(uri: &str) -> bool {
-    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
-}
-
 /// The path of the file that the `uri` found in the glTF file `file` names, if it names one.
 pub(super) fn file(file: &Path, uri: &str) -> Option<PathBuf> {
     if is_data(uri) { None } else { beside(file, uri).ok() }
+}
+
+/// Whether a URI is data in itself.
+pub(super) fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
 }
 
 /// The path of the file that a relative URI names. It must lie in the glTF file's folder or below it.
@@ -92,35 +97,10 @@ fn percent_decode_bytes(text: &str) -> Option<Vec<u8>> {
 
 /// Decodes base64 with the `+/` alphabet, padded or not.
 fn base64(text: &str) -> Option<Vec<u8>> {
-    let text = text.trim_end_matches('=').as_bytes();
-    let mut decoded = Vec::with_capacity(text.len() / 4 * 3 + 2);
-    for group in text.chunks(4) {
-        let mut bits = 0_u32;
-        for &digit in group {
-            bits = bits << 6 | base64_digit(digit)?;
-        }
-        // Two digits carry one byte, three carry two, four carry three; one alone carries none.
-        let bytes = match group.len() {
-            4 => 3,
-            3 => 2,
-            2 => 1,
-            _ => return None,
-        };
-        let aligned = bits << (8 + 6 * (4 - group.len()));
-        decoded.extend(aligned.to_be_bytes().into_iter().take(bytes));
-    }
-    Some(decoded)
-}
-
-fn base64_digit(digit: u8) -> Option<u32> {
-    Some(u32::from(match digit {
-        b'A'..=b'Z' => digit - b'A',
-        b'a'..=b'z' => digit - b'a' + 26,
-        b'0'..=b'9' => digit - b'0' + 52,
-        b'+' => 62,
-        b'/' => 63,
-        _ => return None,
-    }))
+    let config = GeneralPurposeConfig::new()
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent)
+        .with_decode_allow_trailing_bits(true);
+    GeneralPurpose::new(&STANDARD, config).decode(text).ok()
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! What a bake counted, as scripts and people read it.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -113,6 +114,40 @@ impl Statistics {
 
     pub(super) fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Triangles of the mesh.
+    pub(super) const fn triangles(&self) -> u64 {
+        self.triangles
+    }
+
+    /// Microtriangles of all triangles of the mesh by state.
+    pub(super) const fn triangle_states(&self) -> StateCounts {
+        self.triangle_states
+    }
+
+    /// Triangles of the mesh with a special index, by its state.
+    pub(super) const fn special_indices(&self) -> StateCounts {
+        self.special_indices
+    }
+
+    /// The part of the microtriangles that needs no shader, 0 to 1.
+    pub(super) const fn known_fraction(&self) -> f64 {
+        self.known_fraction
+    }
+
+    /// Bytes of the micromap's data.
+    pub(super) const fn array_bytes(&self) -> u64 {
+        self.bytes.array
+    }
+
+    /// How many triangles of the mesh read a micromap triangle of each level, the coarsest first.
+    pub(super) fn levels(&self) -> BTreeMap<u32, u64> {
+        let mut levels = BTreeMap::new();
+        for usage in &self.index_histogram {
+            *levels.entry(usage.level).or_default() += u64::from(usage.count);
+        }
+        levels
     }
 
     /// One row of the table that people get.

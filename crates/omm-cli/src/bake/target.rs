@@ -2,10 +2,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use image::RgbaImage;
-use omm_bake::BakeOutput;
+use omm_bake::{BakeOutput, picture};
 use omm_serialize::bundle::{BundleData, MicromapData, Source};
 
+use super::baked::{self, Baked};
 use super::statistics::Statistics;
 use super::{BakeArgs, Input, write_data};
 use crate::bundle::{settings_and_statistics, source};
@@ -36,19 +36,23 @@ impl Target {
         })
     }
 
-    /// Adds what was baked under `name`. A bundle takes no picture.
-    pub(super) fn add(
-        &mut self,
-        name: &str,
-        output: BakeOutput,
-        statistics: &Statistics,
-        picture: Option<&RgbaImage>,
-    ) -> Result<(), CliError> {
+    /// Adds pictures of what was baked, and of each texture that more than one primitive reads. A bundle takes none.
+    pub(super) fn add_pictures(&mut self, baked: &[Baked<'_>]) -> Result<(), CliError> {
+        let Self::Folder { files, .. } = self else { return Ok(()) };
+        for one in baked {
+            let picture = picture::overlay(&one.input, one.options.sampler, &one.output);
+            files.add_png(&format!("{}.overlay.png", one.statistics.name()), &picture)?;
+        }
+        baked::write_atlases(baked, files)
+    }
+
+    /// Adds what was baked, under the name that its statistics have.
+    pub(super) fn add(&mut self, output: BakeOutput, statistics: &Statistics) -> Result<(), CliError> {
+        let name = statistics.name();
         match self {
             Self::Folder { files, .. } => {
                 write_data(name, &output, files)?;
-                files.add_json(&format!("{name}.stats.json"), statistics)?;
-                picture.map_or(Ok(()), |picture| files.add_png(&format!("{name}.overlay.png"), picture))
+                files.add_json(&format!("{name}.stats.json"), statistics)
             }
             Self::Bundle { path, sources, data, .. } => {
                 // As text and back, so that numbers are spelt as in NAME.stats.json.
