@@ -74,8 +74,10 @@ impl<'a> Budget<'a> {
             Some(&index) => index as usize,
             None => {
                 let index = self.lowering.add(job.format, job.level, self.profiles(job, &block.data));
-                // No more than jobs, of which there are at most i32::MAX.
-                self.by_content.insert(hash, index as u32);
+                if self.options.merge {
+                    // No more than jobs, of which there are at most i32::MAX.
+                    self.by_content.insert(hash, index as u32);
+                }
                 index
             }
         };

@@ -173,3 +173,61 @@ impl<'a> Lowering<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const FORMAT: OpacityMicromapFormat = OpacityMicromapFormat::FourState;
+
+    fn level(level: u32) -> SubdivisionLevel {
+        SubdivisionLevel::new(level).unwrap()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// Where all steps save the same, the best choice is known: those that lose the least.
+        #[test]
+        fn the_cheapest_steps_are_taken(blocks in prop::collection::vec((0.0_f32..1.0, 0.0_f32..1.0, 0.0_f64..9.0), 1..12), part in 0.0_f64..1.0) {
+            let options = BakeOptions { special_indices: false, ..BakeOptions::default() };
+            let mut lowering = Lowering::new(&options);
+            let mut losses = Vec::new();
+            for &(fine, coarse, weight) in &blocks {
+                let profile = |known| Profile { known, is_special: false };
+                let block = lowering.add(FORMAT, level(2), [profile(0.0), profile(fine * coarse), profile(fine)]);
+                lowering.weigh(block, weight);
+                losses.push(weight * f64::from(fine - fine * coarse));
+            }
+            // 4 bytes each, 1 when lowered.
+            let (most, least) = (4 * blocks.len() as u64, blocks.len() as u64);
+            let limit = least + ((most - least) as f64 * part) as u64;
+            let total = lowering.lower(limit).unwrap();
+            prop_assert!(total <= limit && limit - total < 3);
+            let lost: f64 = (0..blocks.len())
+                .filter(|&block| lowering.choice(block) == Some(Choice::Level(level(1))))
+                .map(|block| losses[block])
+                .sum();
+            losses.sort_by(f64::total_cmp);
+            let best: f64 = losses.iter().take((most - total) as usize / 3).sum();
+            prop_assert!((lost - best).abs() <= 1e-9, "{} {}", lost, best);
+            let refused = lowering.lower(least - 1);
+            prop_assert_eq!(refused, Err(BakeError::ArrayBudget { least, limit: least - 1 }));
+        }
+    }
+
+    /// A level that only loses is passed over for one that saves, and nothing is given up before it has to be.
+    #[test]
+    fn levels_are_lowered_as_far_as_it_is_cheapest() {
+        let options = BakeOptions::default();
+        let mut lowering = Lowering::new(&options);
+        let profile = |known| Profile { known, is_special: false };
+        let block = lowering.add(FORMAT, level(3), [0.0, 0.0, 0.5, 0.5].map(profile));
+        lowering.weigh(block, 1.0);
+        assert_eq!((lowering.lower(15), lowering.choice(block)), (Ok(4), Some(Choice::Level(level(2)))));
+        // Giving up saves 4 bytes for the same loss as level 1, which saves 3.
+        assert_eq!((lowering.lower(3), lowering.choice(block)), (Ok(0), Some(Choice::GivenUp)));
+    }
+}

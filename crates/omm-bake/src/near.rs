@@ -181,3 +181,57 @@ fn compact(array: &mut Vec<u8>, triangles: &mut Vec<MicromapTriangle>, leaders: 
     triangles.truncate(kept);
     new
 }
+
+#[cfg(test)]
+mod tests {
+    use omm_model::level::SubdivisionLevel;
+
+    use super::*;
+
+    /// `count` distinct blocks of `level`, in groups of eight that differ in at most two microtriangles.
+    fn blocks(count: u32, level: SubdivisionLevel) -> (Vec<u8>, Vec<MicromapTriangle>) {
+        const FORMAT: OpacityMicromapFormat = OpacityMicromapFormat::FourState;
+        let size = FORMAT.data_size(level);
+        let random = |seed: u64| {
+            let z = (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z ^ (z >> 27)
+        };
+        let mut array = Vec::new();
+        for block in 0..count {
+            let start = array.len();
+            let group = u64::from(block / 8) << 32;
+            array.extend((0..u64::from(size)).map(|byte| random(group | byte) as u8 & 0x55));
+            for change in 0..u64::from(block % 8).min(2) {
+                let at = random(u64::from(block) << 8 | change) % u64::from(size);
+                array[start + at as usize] ^= 1;
+            }
+        }
+        let triangle = |k| MicromapTriangle { data_offset: k * size, subdivision_level: level, format: FORMAT };
+        (array, (0..count).map(triangle).collect())
+    }
+
+    /// As many as a large scene has: minutes if all pairs were compared.
+    #[test]
+    fn many_blocks_are_merged_soon() {
+        for level in [4, 5] {
+            let level = SubdivisionLevel::new(level).unwrap();
+            let (mut array, mut triangles) = blocks(65_536, level);
+            let before = array.clone();
+            let options = BakeOptions { merge_distance: 8.0 / level.microtriangles() as f32, ..BakeOptions::default() };
+            let start = std::time::Instant::now();
+            let new = merge_near(&mut array, &mut triangles, &options);
+            println!("65536 blocks of level {} became {} in {:?}", level.get(), triangles.len(), start.elapsed());
+            // Members of a group differ from its first in up to two places each, so at most four can be left over.
+            assert!(triangles.len() < 65_536 / 8 * 5 / 2, "{}", triangles.len());
+            let size = triangles[0].data_size() as usize;
+            for (old, &new) in new.iter().enumerate() {
+                let (old, new) = (&before[old * size..][..size], &array[new as usize * size..][..size]);
+                for (old, new) in old.iter().zip(new) {
+                    let known = !(new >> 1) & 0x55;
+                    assert_eq!((old ^ new) & known, 0, "a state became another that is known");
+                }
+            }
+        }
+    }
+}

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use hashbrown::HashTable;
-use hashbrown::hash_table::Entry;
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::opacity::OpacityState;
@@ -12,7 +11,7 @@ use omm_model::opacity::OpacityState;
 use crate::classify::cell_budget;
 use crate::error::BakeError;
 use crate::merge::MAX_ARRAY_BYTES;
-use crate::options::{BakeInput, BakeOptions};
+use crate::options::{BakeInput, BakeOptions, TriangleOverride};
 use crate::statistics::BakeStatistics;
 use crate::texel_triangle::{TexelTriangle, TexelTriangleError};
 use crate::texture::Texture;
@@ -93,6 +92,42 @@ pub(crate) fn corner_uvs(input: &BakeInput<'_>, triangle: usize) -> Result<[[f32
     Ok(corner_uvs)
 }
 
+/// Finds triangles that are the same. Level and format follow from the coordinates and the override, so these say it.
+struct SameTriangles<'a> {
+    input: &'a BakeInput<'a>,
+    options: &'a BakeOptions,
+    /// Jobs by the coordinates of their first triangle.
+    jobs: HashTable<u32>,
+}
+
+impl SameTriangles<'_> {
+    fn find(&self, jobs: &[Job], triangle: usize) -> Option<u32> {
+        let wanted = self.key(triangle);
+        self.jobs.find(hash(wanted.0), |&job| self.key(jobs[job as usize].triangle as usize) == wanted).copied()
+    }
+
+    fn insert(&mut self, jobs: &[Job], job: u32) {
+        let mut table = std::mem::take(&mut self.jobs);
+        let hash = |job: u32| hash(self.key(jobs[job as usize].triangle as usize).0);
+        table.insert_unique(hash(job), job, |&job| hash(job));
+        self.jobs = table;
+    }
+
+    /// What is the same for triangles that are. The indices of the triangle have been checked.
+    fn key(&self, triangle: usize) -> ([[u32; 2]; 3], TriangleOverride) {
+        // Both zeros are the same number.
+        let bits = |uv: [f32; 2]| uv.map(|coordinate| (coordinate + 0.0).to_bits());
+        (corner_uvs(self.input, triangle).unwrap_or_default().map(bits), self.options.override_of(triangle))
+    }
+}
+
+/// A hash of texture coordinates that is the same in every run.
+fn hash(uvs: [[u32; 2]; 3]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    uvs.hash(&mut hasher);
+    hasher.finish()
+}
+
 impl<'a> Schedule<'a> {
     pub(crate) fn new(input: &BakeInput<'a>, options: &BakeOptions) -> Result<Self, BakeError> {
         let triangles = input.triangles.len();
@@ -112,47 +147,26 @@ impl<'a> Schedule<'a> {
             baked_triangles: 0,
             texels: 0,
         };
-        // Level and format follow from the coordinates and the override, so these tell whether two triangles are the same.
-        let key = |triangle: usize| {
-            // Indices of earlier triangles have been checked. Both zeros are the same number.
-            let bits = |uv: [f32; 2]| uv.map(|coordinate| (coordinate + 0.0).to_bits());
-            (corner_uvs(input, triangle).unwrap_or_default().map(bits), options.override_of(triangle))
-        };
-        let hash = |key: &([[u32; 2]; 3], _)| {
-            let mut hasher = DefaultHasher::new();
-            key.0.hash(&mut hasher);
-            hasher.finish()
-        };
-        let mut known = HashTable::<u32>::new();
+        let mut known = SameTriangles { input, options, jobs: HashTable::new() };
         let mut unbakeable = BTreeMap::new();
         for triangle in 0..triangles {
             let uvs = corner_uvs(input, triangle)?;
-            let Self { jobs, job_of, .. } = &mut schedule;
-            if options.merge {
-                let wanted = key(triangle);
-                let same = |job: &u32| key(jobs[*job as usize].triangle as usize) == wanted;
-                if let Some(&job) = known.find(hash(&wanted), same) {
-                    job_of.push(job);
-                    jobs[job as usize].uses += 1;
-                    continue;
-                }
+            if options.merge
+                && let Some(job) = known.find(&schedule.jobs, triangle)
+            {
+                schedule.jobs[job as usize].uses += 1;
+                schedule.job_of.push(job);
+                continue;
             }
             // There are no more jobs than triangles, and no more of these than i32::MAX.
-            let job = jobs.len() as u32;
-            match schedule.job(triangle, uvs, options) {
-                found @ Job { source: Source::Uniform(_), level, format, .. } if options.merge => {
-                    let job = *unbakeable.entry((level, format)).or_insert(job);
-                    schedule.add(job, found);
-                }
-                found => {
-                    schedule.add(job, found);
-                    if options.merge {
-                        let rehash = |job: &u32| hash(&key(schedule.jobs[*job as usize].triangle as usize));
-                        if let Entry::Vacant(place) = known.entry(hash(&key(triangle)), |_| false, rehash) {
-                            place.insert(job);
-                        }
-                    }
-                }
+            let mut job = schedule.jobs.len() as u32;
+            let found = schedule.job(triangle, uvs, options);
+            if options.merge && found.source != Source::Texels {
+                job = *unbakeable.entry((found.level, found.format)).or_insert(job);
+            }
+            schedule.add(job, found);
+            if options.merge && found.source == Source::Texels {
+                known.insert(&schedule.jobs, job);
             }
         }
         schedule.check_size(options)?;

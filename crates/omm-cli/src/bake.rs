@@ -16,9 +16,13 @@ use crate::error::{CliError, Outcome};
 use crate::output::{self, OutputSet};
 use crate::progress::Progress;
 
+mod dry;
 mod statistics;
+mod tuning;
 
+use dry::Forecast;
 use statistics::Statistics;
+use tuning::Tuning;
 
 /// Arguments of `omm bake`.
 #[derive(Debug, Args)]
@@ -27,8 +31,8 @@ pub(crate) struct BakeArgs {
     /// A glTF file (.gltf, .glb), of which every alpha-masked primitive is baked, or a job file (.json).
     input: PathBuf,
     /// Where results go; made if absent.
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "dry_run")]
+    out: Option<PathBuf>,
     /// Also draw each texture with its microtriangles coloured by state.
     #[arg(long)]
     picture: bool,
@@ -53,6 +57,8 @@ pub(crate) struct BakeArgs {
     /// How many threads bake; one for each core if 0.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
+    #[command(flatten)]
+    tuning: Tuning,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -65,8 +71,9 @@ enum States {
     Four,
 }
 
+/// Which unknown state a mixed microtriangle gets.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Promotion {
+pub(crate) enum Promotion {
     /// The one that more of it is.
     Nearest,
     /// Unknown opaque.
@@ -75,6 +82,16 @@ enum Promotion {
     /// Unknown transparent.
     #[value(alias = "force_transparent")]
     ForceTransparent,
+}
+
+impl From<Promotion> for UnknownStatePromotion {
+    fn from(promotion: Promotion) -> Self {
+        match promotion {
+            Promotion::Nearest => Self::Nearest,
+            Promotion::ForceOpaque => Self::ForceOpaque,
+            Promotion::ForceTransparent => Self::ForceTransparent,
+        }
+    }
 }
 
 /// A finite number above 0 as an argument.
@@ -87,10 +104,18 @@ fn positive(text: &str) -> Result<f32, String> {
 
 /// Runs `omm bake`.
 pub(crate) fn run(args: &BakeArgs, format: Format) -> Result<Outcome, CliError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
-    let results = pool.map_err(CliError::Threads)?.install(|| args.bake())?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build().map_err(CliError::Threads)?;
+    let Some(out) = args.out.as_deref().filter(|_| !args.tuning.dry_run) else {
+        let forecasts = pool.install(|| args.forecast())?;
+        match format {
+            Format::Text => output::print(|out| dry::print(&forecasts, out))?,
+            Format::Json => output::print_json(&forecasts)?,
+        }
+        return Ok(Outcome::Clean);
+    };
+    let results = pool.install(|| args.bake(out))?;
     match format {
-        Format::Text => output::print(|out| print(&results, &args.out, out))?,
+        Format::Text => output::print(|to| print(&results, out, to))?,
         Format::Json => output::print_json(&results)?,
     }
     Ok(Outcome::Clean)
@@ -118,37 +143,52 @@ impl Input {
 
 impl BakeArgs {
     /// Bakes everything and leaves the results in the output folder, all or none.
-    fn bake(&self) -> Result<Vec<Statistics>, CliError> {
+    fn bake(&self, out: &Path) -> Result<Vec<Statistics>, CliError> {
         let input = Input::read(&self.input)?;
-        let mut files = OutputSet::new(&self.out);
+        let mut files = OutputSet::new(out);
         // Better to find out now than after the work that the folder cannot be written.
         files.prepare()?;
-        let mut results = Vec::new();
-        match &input {
-            Input::Job(job) => {
-                let options = self.options(job.options.clone());
-                results.push(self.bake_one(&job.name, &job.input(), &options, &mut files)?);
-            }
+        let results = self.each(&input, |name, input, options| self.bake_one(name, input, options, &mut files))?;
+        files.commit()?;
+        Ok(results)
+    }
+
+    /// Says what would be baked.
+    fn forecast(&self) -> Result<Vec<Forecast>, CliError> {
+        let input = Input::read(&self.input)?;
+        self.each(&input, |name, input, options| {
+            Forecast::new(name, input, options).map_err(dry::refused(&self.input, name))
+        })
+    }
+
+    /// Does `what` with each thing to bake.
+    fn each<T>(
+        &self,
+        input: &Input,
+        mut what: impl FnMut(&str, &BakeInput<'_>, &BakeOptions) -> Result<T, CliError>,
+    ) -> Result<Vec<T>, CliError> {
+        match input {
+            Input::Job(job) => Ok(vec![what(&job.name, &job.input(), &self.options(job.options.clone())?)?]),
             Input::Gltf(file) => {
+                let mut results = Vec::new();
                 for primitive in &file.primitives {
                     let Some(texture) = file.textures.get(primitive.texture) else { continue };
                     let BakeArgs { cutoff, .. } = *self;
                     let options = BakeOptions {
                         sampler: primitive.sampler,
                         alpha_cutoff: cutoff.map_or(primitive.alpha_cutoff, |cutoff| primitive.cutoff_for(cutoff)),
-                        ..self.options(BakeOptions::default())
+                        ..self.options(BakeOptions::default())?
                     };
                     let input = BakeInput { texture, uvs: &primitive.uvs, triangles: &primitive.triangles };
-                    results.push(self.bake_one(&primitive.name, &input, &options, &mut files)?);
+                    results.push(what(&primitive.name, &input, &options)?);
                 }
+                Ok(results)
             }
         }
-        files.commit()?;
-        Ok(results)
     }
 
     /// `options` with those of the command line in their place.
-    fn options(&self, options: BakeOptions) -> BakeOptions {
+    fn options(&self, options: BakeOptions) -> Result<BakeOptions, CliError> {
         let level = match (self.level, self.dynamic, options.level) {
             (None, None, level) => level,
             (Some(level), None, _) => LevelChoice::Uniform(level),
@@ -161,19 +201,14 @@ impl BakeArgs {
             States::Two => OpacityMicromapFormat::TwoState,
             States::Four => OpacityMicromapFormat::FourState,
         });
-        let promotion = self.promotion.map(|promotion| match promotion {
-            Promotion::Nearest => UnknownStatePromotion::Nearest,
-            Promotion::ForceOpaque => UnknownStatePromotion::ForceOpaque,
-            Promotion::ForceTransparent => UnknownStatePromotion::ForceTransparent,
-        });
-        BakeOptions {
+        self.tuning.apply(BakeOptions {
             level,
             format: format.unwrap_or(options.format),
-            promotion: promotion.unwrap_or(options.promotion),
+            promotion: self.promotion.map_or(options.promotion, Into::into),
             alpha_cutoff: self.cutoff.unwrap_or(options.alpha_cutoff),
             special_indices: options.special_indices && !self.no_special_indices,
             ..options
-        }
+        })
     }
 
     fn bake_one(
@@ -186,11 +221,17 @@ impl BakeArgs {
         let since = std::time::Instant::now();
         let bar = Progress::new(name, 0);
         let progress = |at: omm_bake::Progress| bar.set(at.done, at.total);
-        let output = omm_bake::bake(input, options, &progress)
-            .map_err(|source| CliError::Bake { input: format!("{}: {name}", self.input.display()), source })?;
+        let refused = || dry::refused(&self.input, name);
+        let output = omm_bake::bake(input, options, &progress).map_err(refused())?;
         drop(bar);
-        let statistics = Statistics::new(name, input, options, &output, since.elapsed());
-        write_data(name, &output, files)?;
+        let time = since.elapsed();
+        let (index_type, indices) = output.index_buffer(self.tuning.index_type.types()).map_err(refused())?;
+        let coverage = omm_bake::coverage(input, &output);
+        let statistics = Statistics::new(name, input, options, &output, &coverage, index_type, time);
+        write_data(name, &output, &indices, files)?;
+        if self.tuning.coverage {
+            files.add_json(&format!("{name}.coverage.json"), &coverage)?;
+        }
         files.add_json(&format!("{name}.stats.json"), &statistics)?;
         if self.picture {
             let picture = picture::overlay(input, options.sampler, &output);
@@ -201,15 +242,18 @@ impl BakeArgs {
 }
 
 /// Adds the three files of data: the micromap's array, its triangles, and the index buffer.
-pub(crate) fn write_data(name: &str, output: &BakeOutput, files: &mut OutputSet) -> Result<(), CliError> {
-    let BakeOutput { array, triangles, indices, .. } = output;
+pub(crate) fn write_data(
+    name: &str,
+    output: &BakeOutput,
+    indices: &[u8],
+    files: &mut OutputSet,
+) -> Result<(), CliError> {
+    let BakeOutput { array, triangles, .. } = output;
     files.add(format!("{name}.array.bin"), |out| out.write_all(array))?;
     files.add(format!("{name}.desc.bin"), |out| {
         triangles.iter().try_for_each(|&triangle| out.write_all(&omm_layout::triangle::encode(&triangle.into())))
     })?;
-    files.add(format!("{name}.index.bin"), |out| {
-        indices.iter().try_for_each(|index| out.write_all(&index.to_le_bytes()))
-    })
+    files.add(format!("{name}.index.bin"), |out| out.write_all(indices))
 }
 
 fn print(results: &[Statistics], folder: &Path, out: &mut dyn Write) -> std::io::Result<()> {
@@ -229,8 +273,10 @@ const HELP: &str = "\
 Results, for a job its name, for a glTF primitive MESH_primN:
   NAME.array.bin     the micromap's data
   NAME.desc.bin      for each micromap triangle: u32 offset, u16 level, u16 format
-  NAME.index.bin     for each triangle of the mesh: i32, a micromap triangle or a special index
+  NAME.index.bin     for each triangle of the mesh: a micromap triangle or, as -1 to -4, a special
+                     index; 32 bits unless --index-type says otherwise
   NAME.stats.json    what was counted
+  NAME.coverage.json which part of each triangle is known, and its texels
   NAME.overlay.png   the picture
 
 A glTF file's alphaCutoff, alpha factor, texture transform and sampler are honoured, and its
@@ -241,6 +287,8 @@ Examples:
   omm bake model.glb --out baked --picture
   omm bake model.glb --out baked --level 5 --state 2
   omm bake leaf.job.json --out baked --format json
+  omm bake model.glb --dry-run --max-array-bytes 65536
+  omm bake smoke.job.json --out baked --cutoff 0 --greater uo
 
 Exit status:
   0  clean
