@@ -17,7 +17,7 @@ use crate::error::BakeError;
 use crate::layers::Layers;
 use crate::options::{BakeInput, BakeOptions};
 use crate::patch::Patch;
-use crate::schedule::{Job, Schedule, Source};
+use crate::schedule::{Job, Schedule};
 use crate::statistics::BakeStatistics;
 
 pub use crate::schedule::WorkEstimate;
@@ -135,7 +135,10 @@ pub fn bake<A: ProgressAnswer>(
         return Ok(output);
     }
     watch.total.fetch_add(schedule.estimate(options).microtriangles, Ordering::Relaxed);
-    collect(&schedule, &layers, options, &watch)
+    let output = collect(&schedule, &layers, options, &watch)?;
+    // Only if blocks that were taken to be the same are not.
+    let least = output.statistics.array_bytes;
+    if least > limit { Err(BakeError::ArrayBudget { least, limit }) } else { Ok(output) }
 }
 
 /// Bakes all jobs and puts them together.
@@ -164,8 +167,7 @@ fn for_each_block<A: ProgressAnswer>(
     mut baked: impl FnMut(usize, &Block) -> Result<(), BakeError>,
 ) -> Result<(), BakeError> {
     let key = |(number, job): (u32, &Job)| {
-        let triangle = if job.source == Source::Texels { layers.triangle(job) } else { None };
-        (options.order.key(job, triangle.as_ref(), schedule.mips[0], options.sampler), number)
+        (options.order.key(job, layers.uvs(job), schedule.mips[0], options.sampler), number)
     };
     let mut order: Vec<(u64, u32)> = (0..).zip(&schedule.jobs).map(key).collect();
     order.sort_unstable();

@@ -42,10 +42,15 @@ impl<'a> Layers<'a> {
         Ok(Self { layers, input, options })
     }
 
+    /// The texture coordinates of `job`.
+    pub(crate) fn uvs(&self, job: &Job) -> [[f32; 2]; 3] {
+        // Jobs are made of triangles whose indices have been checked.
+        corner_uvs(self.input, job.triangle as usize).unwrap_or_default()
+    }
+
     /// The triangle of `job` in texels of the finest mip.
     pub(crate) fn triangle(&self, job: &Job) -> Option<TexelTriangle> {
-        let uvs = corner_uvs(self.input, job.triangle as usize).ok()?;
-        TexelTriangle::new(uvs, self.layers.first()?.surface.texture()).ok()
+        TexelTriangle::new(self.uvs(job), self.layers.first()?.surface.texture()).ok()
     }
 
     /// The data of `job`; none if a special index will stand for it. `patch` is room to work in, and `finished` is told of microtriangles
@@ -58,24 +63,24 @@ impl<'a> Layers<'a> {
         let mut block = Block::default();
         if self.options.special_indices {
             block.tally.states.add(state, job.level.microtriangles().into());
-        } else if let Some(baker) = self.baker(job.format).next() {
+        } else if let Some(baker) = self.bakers(job.format).next() {
             block = baker.uniform(state, job.level);
         }
         block
     }
 
     /// A baker for each mip.
-    fn baker(&self, format: OpacityMicromapFormat) -> impl Iterator<Item = BlockBaker<'_>> {
+    fn bakers(&self, format: OpacityMicromapFormat) -> impl Iterator<Item = BlockBaker<'_>> {
         let promotion = self.options.promotion;
         self.layers.iter().map(move |Layer { surface, planes }| BlockBaker { surface, planes, format, promotion })
     }
 
     fn bake_texels(&self, job: &Job, patch: &mut Patch, finished: &(dyn Fn(u64) + Sync)) -> Block {
-        let uvs = corner_uvs(self.input, job.triangle as usize).unwrap_or_default();
+        let uvs = self.uvs(job);
         let is_plain = self.layers.len() == 1 && self.options.cutoff_states == CutoffStates::default();
         let format = if is_plain { job.format } else { OpacityMicromapFormat::FourState };
         let mut block = Block::default();
-        for (mip, baker) in self.baker(format).enumerate() {
+        for (mip, baker) in self.bakers(format).enumerate() {
             // Found to succeed for the first mip, and the others are no larger.
             let Ok(triangle) = TexelTriangle::new(uvs, baker.surface.texture()) else { continue };
             if mip == 0 {

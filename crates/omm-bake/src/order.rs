@@ -4,8 +4,7 @@ use omm_model::format::OpacityMicromapFormat;
 use serde::{Deserialize, Serialize};
 
 use crate::sampler::{AddressMode, Sampler};
-use crate::schedule::Job;
-use crate::texel_triangle::TexelTriangle;
+use crate::schedule::{Job, Source};
 use crate::texture::Texture;
 
 /// In which order blocks lie in the array.
@@ -24,29 +23,29 @@ pub enum BlockOrder {
 }
 
 impl BlockOrder {
-    /// What jobs are sorted by; equal ones stay in the order of the mesh. `triangle` is none if it cannot be baked: those come last.
-    pub(crate) fn key(self, job: &Job, triangle: Option<&TexelTriangle>, texture: &Texture, sampler: Sampler) -> u64 {
+    /// What jobs are sorted by; equal ones stay in the order of the mesh. Those that cannot be baked come last.
+    pub(crate) fn key(self, job: &Job, uvs: [[f32; 2]; 3], texture: &Texture, sampler: Sampler) -> u64 {
         let coarseness = 12 - u64::from(job.level.get());
         let two_state = u64::from(job.format == OpacityMicromapFormat::TwoState);
-        let place = match (triangle, self) {
-            (None, _) => u64::from(u32::MAX) + 1,
-            (Some(_), Self::Mesh) => 0,
-            (Some(triangle), Self::Spatial) => place(triangle, texture, sampler).into(),
+        let place = match (job.source, self) {
+            (Source::Uniform(_), _) => u64::from(u32::MAX) + 1,
+            (Source::Texels, Self::Mesh) => 0,
+            (Source::Texels, Self::Spatial) => place(uvs, texture, sampler).into(),
         };
         (coarseness << 1 | two_state) << 33 | place
     }
 }
 
 /// The Morton code of the texel at the centroid, in steps of a 2^-16th of the texture.
-fn place(triangle: &TexelTriangle, texture: &Texture, sampler: Sampler) -> u32 {
-    let code = |coordinate: f64, mode: AddressMode, size: u32| {
-        // Coordinates are below 2^30; what lies in a border belongs to the nearest texel.
-        let at = coordinate.floor() as i64;
+fn place(uvs: [[f32; 2]; 3], texture: &Texture, sampler: Sampler) -> u32 {
+    let code = |axis: usize, mode: AddressMode, size: u32| {
+        let centre = uvs.iter().map(|uv| f64::from(uv[axis])).sum::<f64>() / 3.0;
+        // Coordinates that can be baked are below 2^30; what lies in a border belongs to the nearest texel.
+        let at = (centre * f64::from(size)).floor() as i64;
         let texel = mode.texel(at, size).or_else(|| AddressMode::Clamp.texel(at, size)).unwrap_or_default();
         spread((u64::from(texel) << 16) / u64::from(size))
     };
-    let [x, y] = triangle.centroid();
-    code(x, sampler.address_mode_u, texture.width()) | code(y, sampler.address_mode_v, texture.height()) << 1
+    code(0, sampler.address_mode_u, texture.width()) | code(1, sampler.address_mode_v, texture.height()) << 1
 }
 
 /// The 16 low bits of `value`, a 0 between each two.
@@ -64,8 +63,7 @@ mod tests {
         let texture = Texture::unorm8(4, 4, vec![0; 16]).unwrap();
         let at = |x: u8, y: u8| {
             let [u, v] = [x, y].map(|k| (f32::from(k) + 0.5) / 4.0);
-            let triangle = TexelTriangle::new([[u, v]; 3], &texture).unwrap();
-            place(&triangle, &texture, Sampler::default()) >> 28
+            place([[u, v]; 3], &texture, Sampler::default()) >> 28
         };
         let found: Vec<_> = (0..4).flat_map(|y| (0..4).map(move |x| at(x, y))).collect();
         assert_eq!(found, [0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15]);

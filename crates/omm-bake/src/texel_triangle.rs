@@ -92,11 +92,6 @@ impl TexelTriangle {
         ((x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0)).abs() / 2.0
     }
 
-    /// The centroid in texels, rounded.
-    pub(crate) fn centroid(&self) -> [f64; 2] {
-        [self.x, self.y].map(|coordinates| coordinates.iter().sum::<f64>() / 3.0)
-    }
-
     /// The microtriangle with corners `weights`, which are in units of 2^-`level`; `shift` is subtracted from each coordinate.
     ///
     /// The weights of a level are integers of at most 12 significant bits, and `x` has 41, so the products are exact; two
