@@ -123,7 +123,7 @@ pub(crate) fn run(args: &BakeArgs, format: Format) -> Result<Outcome, CliError> 
 
 /// What an input file holds.
 enum Input {
-    Job(Job),
+    Job(Box<Job>),
     Gltf(GltfFile),
 }
 
@@ -134,7 +134,7 @@ impl Input {
         if name.ends_with(".gltf") || name.ends_with(".glb") || output::starts_with(path, b"glTF")? {
             Ok(Self::Gltf(gltf::read(path)?))
         } else if name.ends_with(".json") {
-            Ok(Self::Job(job::read(path)?))
+            Ok(Self::Job(Box::new(job::read(path)?)))
         } else {
             Err(CliError::UnknownInput { path: path.into() })
         }
