@@ -1,27 +1,26 @@
 //! The whole way from triangles to an array, its triangles and an index buffer.
 
-use std::collections::HashMap;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use omm_model::level::SubdivisionLevel;
+use omm_layout::index::IndexType;
+use omm_layout::index_buffer;
 use omm_model::special_index::{OpacityMicromapSpecialIndex, TriangleMap};
 use omm_model::triangle::MicromapTriangle;
-use omm_model::usage::{self, MicromapUsage};
+use omm_model::usage::MicromapUsage;
 use rayon::prelude::*;
 
-use crate::block::{Block, BlockBaker};
+use crate::block::Block;
+use crate::budget::Budget;
+use crate::collect::Collector;
 use crate::error::BakeError;
-use crate::level::LevelChoice;
-use crate::merge::{ArrayBuilder, MAX_ARRAY_BYTES};
+use crate::layers::Layers;
 use crate::options::{BakeInput, BakeOptions};
 use crate::patch::Patch;
-use crate::planes::Planes;
+use crate::schedule::{Job, Schedule};
 use crate::statistics::BakeStatistics;
-use crate::surface::Surface;
-use crate::texel_triangle::{TexelTriangle, TexelTriangleError};
 
-/// The most triangles that an index buffer of 32-bit integers can number beside its special values.
-const MAX_TRIANGLES: usize = i32::MAX as usize;
+pub use crate::schedule::WorkEstimate;
 
 /// Bytes of data that each thread bakes, at least a block, before blocks are added to the array.
 const BYTES_PER_THREAD: usize = 1 << 16;
@@ -29,8 +28,9 @@ const BYTES_PER_THREAD: usize = 1 << 16;
 /// What a bake made.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BakeOutput {
-    /// The micromap's data: blocks without gaps, the finest level first, within a level by the first triangle of the mesh that
-    /// uses them, those of triangles that cannot be baked last. As sizes of blocks are powers of 4, each from 4-state level 1 and 2-state level 2 on is aligned to its size.
+    /// The micromap's data: the finest level first, 4-state before 2-state within a level, and blocks of both in the order that
+    /// [`BakeOptions::order`] chooses. As sizes of blocks are powers of 2 that never grow, each is aligned to its size; gaps are only where
+    /// [`BakeOptions::block_alignment`] asks for more.
     pub array: Vec<u8>,
     /// Where each block lies and how it is to be read: the micromap's triangle array.
     pub triangles: Vec<MicromapTriangle>,
@@ -50,56 +50,51 @@ impl BakeOutput {
     pub fn triangle_maps(&self) -> impl ExactSizeIterator<Item = TriangleMap> + '_ {
         self.indices.iter().map(|&index| match OpacityMicromapSpecialIndex::from_value(index) {
             Some(special) => TriangleMap::SpecialIndex(special),
-            // Other than special indices, none is negative.
-            None => TriangleMap::Triangle(index.unsigned_abs()),
+            // A negative one that is not special is larger than any count, and so lies beyond the triangles.
+            None => TriangleMap::Triangle(index.cast_unsigned()),
         })
+    }
+
+    /// The index buffer in the first of `types` that can hold it, and that type: the smallest of 8, 16 and 32 bits for
+    /// `&[IndexType::Uint8, IndexType::Uint16, IndexType::Uint32]`, a forced one for a list of one.
+    ///
+    /// A type's four largest values are special indices, so 8 bits number 252 micromap triangles.
+    ///
+    /// # Errors
+    /// [`BakeError::IndexType`] if none of them can hold the indices.
+    pub fn index_buffer(&self, types: &[IndexType]) -> Result<(IndexType, Vec<u8>), BakeError> {
+        let maps: Vec<TriangleMap> = self.triangle_maps().collect();
+        let fitting = index_buffer::fitting_type(&maps, 0, types);
+        let bytes = |ty| index_buffer::write(&maps, ty, 0).ok().map(|bytes| (ty, bytes));
+        fitting.and_then(bytes).ok_or(BakeError::IndexType { micromap_triangles: self.triangles.len() })
     }
 }
 
 /// How far a bake is, in microtriangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Microtriangles that are decided.
+    /// Microtriangles that are decided, at all mips.
     pub done: u64,
-    /// Microtriangles of all triangles that must be baked.
+    /// Microtriangles of all triangles that must be baked, at all mips. It changes once if a byte budget makes a second pass necessary.
     pub total: u64,
 }
 
-/// How much work a bake is, found without looking at the texture's texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct WorkEstimate {
-    /// Triangles that must be baked: without repeated ones if they are merged, and without those that cannot be baked.
-    pub baked_triangles: u64,
-    /// Their microtriangles.
-    pub microtriangles: u64,
-    /// Bytes of their data before special indices and merging make it less.
-    pub array_bytes: u64,
+/// What a progress callback may answer: nothing, or whether to go on.
+pub trait ProgressAnswer {
+    /// [`ControlFlow::Break`] to cancel the bake.
+    fn flow(self) -> ControlFlow<()>;
 }
 
-/// What becomes of a triangle of the mesh.
-enum Plan {
-    /// It is job number so-and-so.
-    Job(u32),
-    /// It has no texture coordinates to bake from.
-    Unbakeable(SubdivisionLevel),
+impl ProgressAnswer for () {
+    fn flow(self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
 }
 
-/// A triangle that must be baked.
-#[derive(Clone, Copy)]
-struct Job {
-    /// The first triangle of the mesh that it stands for.
-    triangle: u32,
-    /// How many triangles of the mesh it stands for.
-    uses: u32,
-    level: SubdivisionLevel,
-}
-
-/// Everything that is known before a texel is looked at.
-struct Schedule {
-    plans: Vec<Plan>,
-    jobs: Vec<Job>,
-    not_finite: u64,
-    out_of_range: u64,
+impl ProgressAnswer for ControlFlow<()> {
+    fn flow(self) -> ControlFlow<()> {
+        self
+    }
 }
 
 /// How much work [`bake`] will have with the same arguments.
@@ -114,209 +109,115 @@ pub fn estimate(input: &BakeInput<'_>, options: &BakeOptions) -> Result<WorkEsti
 /// Bakes opacity micromaps for the triangles of `input`.
 ///
 /// The result depends on the arguments alone, not on the number of threads: rayon's current pool is used. Beside the input and the
-/// result, memory holds a few words for each triangle and about one block for each thread. `progress` is called from any
-/// thread, now and then, in no order; to ignore it give `&|_| {}`.
+/// result, memory holds a bit for each texel, a few words for each triangle and about one block for each thread. `progress` is called from any
+/// thread, now and then, in no order; to ignore it give `&|_| {}`. If it answers [`ControlFlow::Break`], no further triangle is
+/// begun.
 ///
 /// # Errors
-/// [`BakeError`] if an option or an index has no meaning, or if the data would be larger than offsets can reach.
-pub fn bake(
+/// [`BakeError`] if an option or an index has no meaning, if a budget cannot be met, if the data would be larger than offsets can
+/// reach, or if `progress` cancelled the bake.
+pub fn bake<A: ProgressAnswer>(
     input: &BakeInput<'_>,
     options: &BakeOptions,
-    progress: &(dyn Fn(Progress) + Sync),
+    progress: &(dyn Fn(Progress) -> A + Sync),
 ) -> Result<BakeOutput, BakeError> {
-    let schedule = Schedule::new(input, options)?;
-    let surface = Surface::new(input.texture, options.sampler, options.alpha_cutoff)?;
-    let total = schedule.estimate(options).microtriangles;
-    let done = AtomicU64::new(0);
-    let finished = |count: u64| {
-        let done = done.fetch_add(count, Ordering::Relaxed).saturating_add(count);
-        progress(Progress { done, total });
-    };
-    let planes = Planes::new(&surface);
-    let baker = BlockBaker { surface: &surface, planes: &planes, format: options.format, promotion: options.promotion };
-    let mut collector = Collector::new(options);
+    let mut schedule = Schedule::new(input, options)?;
+    let layers = Layers::new(&schedule, input, options)?;
+    let estimate = schedule.estimate(options);
+    let watch = Watch::new(progress, estimate.microtriangles);
+    let over_budget = options.max_array_bytes.filter(|&limit| schedule.most_bytes(options) > limit);
+    let Some(limit) = over_budget else { return collect(&schedule, &layers, options, &watch) };
 
+    let mut budget = Budget::new(schedule.jobs.len(), options, limit);
+    let baked = |job: usize, block: &Block| budget.measure(&schedule, &layers, job, block);
+    for_each_block(&schedule, &layers, options, &watch, baked)?;
+    if let Some(output) = budget.fit(&mut schedule)? {
+        return Ok(output);
+    }
+    watch.total.fetch_add(schedule.estimate(options).microtriangles, Ordering::Relaxed);
+    let output = collect(&schedule, &layers, options, &watch)?;
+    // Only if blocks that were taken to be the same are not.
+    let least = output.statistics.array_bytes;
+    if least > limit { Err(BakeError::ArrayBudget { least, limit }) } else { Ok(output) }
+}
+
+/// Bakes all jobs and puts them together.
+fn collect<A: ProgressAnswer>(
+    schedule: &Schedule<'_>,
+    layers: &Layers<'_>,
+    options: &BakeOptions,
+    watch: &Watch<'_, A>,
+) -> Result<BakeOutput, BakeError> {
+    let mut collector = Collector::new(options);
     let mut entries = vec![0; schedule.jobs.len()];
-    // By level, the finest first, and within a level by first use: the order in which blocks lie in the array.
-    let mut order: Vec<usize> = (0..schedule.jobs.len()).collect();
-    order.sort_by_key(|&job| std::cmp::Reverse(schedule.jobs[job].level));
+    for_each_block(schedule, layers, options, watch, |job, block| {
+        let Job { level, format, uses, .. } = schedule.jobs[job];
+        entries[job] = collector.add(block, level, format, uses.into())?;
+        Ok(())
+    })?;
+    Ok(collector.finish(schedule.indices(&entries), schedule.facts()))
+}
+
+/// Gives `baked` every job's block, in the order in which they are to lie in the array.
+fn for_each_block<A: ProgressAnswer>(
+    schedule: &Schedule<'_>,
+    layers: &Layers<'_>,
+    options: &BakeOptions,
+    watch: &Watch<'_, A>,
+    mut baked: impl FnMut(usize, &Block) -> Result<(), BakeError>,
+) -> Result<(), BakeError> {
+    let key = |(number, job): (u32, &Job)| {
+        (options.order.key(job, layers.uvs(job), schedule.mips[0], options.sampler), number)
+    };
+    let mut order: Vec<(u64, u32)> = (0..).zip(&schedule.jobs).map(key).collect();
+    order.sort_unstable();
+    let finished = |count| watch.advance(count);
     let mut rest = order.as_slice();
-    while let Some(&first) = rest.first() {
-        let block_bytes = options.format.data_size(schedule.jobs[first].level) as usize;
+    while let Some(&(_, first)) = rest.first() {
+        let Job { level, format, .. } = schedule.jobs[first as usize];
+        let block_bytes = format.data_size(level) as usize;
         let batch = rayon::current_num_threads() * (BYTES_PER_THREAD / block_bytes).max(1);
         let (now, later) = rest.split_at(batch.min(rest.len()));
-        let bake = |patch: &mut Patch, &job: &usize| {
-            let Job { triangle, level, .. } = schedule.jobs[job];
-            // Jobs are made of triangles for which both have been found to succeed.
-            let uvs = corner_uvs(input, triangle as usize).unwrap_or_default();
-            match TexelTriangle::new(uvs, input.texture) {
-                Ok(triangle) => baker.bake(&triangle, level, patch, &finished),
-                Err(_) => baker.uniform(options.unbakeable.state(), level),
+        let bake = |patch: &mut Patch, &(_, job): &(u64, u32)| {
+            if watch.is_cancelled() {
+                return Block::default();
             }
+            layers.bake(&schedule.jobs[job as usize], patch, &finished)
         };
         let blocks: Vec<Block> = now.par_iter().map_init(Patch::new, bake).collect();
-        for (&job, block) in now.iter().zip(&blocks) {
-            let Job { level, uses, .. } = schedule.jobs[job];
-            entries[job] = collector.add(block, level, uses.into())?;
+        if watch.is_cancelled() {
+            return Err(BakeError::Cancelled);
+        }
+        for (&(_, job), block) in now.iter().zip(&blocks) {
+            baked(job as usize, block)?;
         }
         rest = later;
     }
-    collector.finish(schedule, &entries, &baker)
+    Ok(())
 }
 
-/// The texture coordinates of the corners of a triangle.
-fn corner_uvs(input: &BakeInput<'_>, triangle: usize) -> Result<[[f32; 2]; 3], BakeError> {
-    let BakeInput { texture: _, uvs, triangles } = *input;
-    let mut corner_uvs = [[0.0; 2]; 3];
-    let corners = triangles.get(triangle).into_iter().flatten();
-    for (corner, (uv, &found)) in corner_uvs.iter_mut().zip(corners).enumerate() {
-        let missing = BakeError::IndexOutOfRange { triangle, corner, found, count: uvs.len() };
-        *uv = *uvs.get(found as usize).ok_or(missing)?;
-    }
-    Ok(corner_uvs)
+/// Counts what is done, and listens whether to go on.
+struct Watch<'a, A> {
+    progress: &'a (dyn Fn(Progress) -> A + Sync),
+    done: AtomicU64,
+    total: AtomicU64,
+    cancelled: AtomicBool,
 }
 
-impl Schedule {
-    fn new(input: &BakeInput<'_>, options: &BakeOptions) -> Result<Self, BakeError> {
-        let BakeInput { texture, uvs: _, triangles } = *input;
-        if let LevelChoice::Dynamic { scale, max: _ } = options.level
-            && !(scale.is_finite() && scale > 0.0)
-        {
-            return Err(BakeError::DynamicScale { found: scale });
-        }
-        if triangles.len() > MAX_TRIANGLES {
-            return Err(BakeError::TooManyTriangles { found: triangles.len(), limit: MAX_TRIANGLES });
-        }
-        let mut schedule = Self { plans: Vec::new(), jobs: Vec::new(), not_finite: 0, out_of_range: 0 };
-        // The level follows from the coordinates, so these alone tell whether two triangles are the same.
-        let mut jobs_by_uvs = HashMap::<_, u32>::new();
-        for triangle in 0..triangles.len() {
-            let corner_uvs = corner_uvs(input, triangle)?;
-            // Both zeros are the same number.
-            let key = corner_uvs.map(|uv| uv.map(|coordinate| (coordinate + 0.0).to_bits()));
-            if options.merge
-                && let Some(&job) = jobs_by_uvs.get(&key)
-            {
-                schedule.plans.push(Plan::Job(job));
-                schedule.jobs[job as usize].uses += 1;
-                continue;
-            }
-            match TexelTriangle::new(corner_uvs, texture) {
-                Ok(texels) => {
-                    // There are no more jobs than triangles, and no more of these than i32::MAX.
-                    let job = schedule.jobs.len() as u32;
-                    let level = options.level.level(Some(&texels));
-                    schedule.jobs.push(Job { triangle: triangle as u32, uses: 1, level });
-                    schedule.plans.push(Plan::Job(job));
-                    if options.merge {
-                        jobs_by_uvs.insert(key, job);
-                    }
-                }
-                Err(error) => {
-                    *match error {
-                        TexelTriangleError::NotFinite => &mut schedule.not_finite,
-                        TexelTriangleError::OutOfRange => &mut schedule.out_of_range,
-                    } += 1;
-                    schedule.plans.push(Plan::Unbakeable(options.level.level(None)));
-                }
-            }
-        }
-        schedule.check_array_size(options)?;
-        Ok(schedule)
+impl<'a, A: ProgressAnswer> Watch<'a, A> {
+    fn new(progress: &'a (dyn Fn(Progress) -> A + Sync), total: u64) -> Self {
+        Self { progress, done: AtomicU64::new(0), total: AtomicU64::new(total), cancelled: AtomicBool::new(false) }
     }
 
-    /// Without special indices and merging the size is known: better to refuse now than after hours.
-    fn check_array_size(&self, options: &BakeOptions) -> Result<(), BakeError> {
-        let unbakeable = self.plans.iter().map(|plan| match plan {
-            Plan::Job(_) => 0,
-            Plan::Unbakeable(level) => options.format.data_size(*level).into(),
-        });
-        let required = self.estimate(options).array_bytes + unbakeable.sum::<u64>();
-        if !options.merge && !options.special_indices && required > MAX_ARRAY_BYTES {
-            return Err(BakeError::ArrayTooLarge { required, limit: MAX_ARRAY_BYTES });
-        }
-        Ok(())
-    }
-
-    fn estimate(&self, options: &BakeOptions) -> WorkEstimate {
-        let sum = |of: &dyn Fn(SubdivisionLevel) -> u32| self.jobs.iter().map(|job| u64::from(of(job.level))).sum();
-        WorkEstimate {
-            baked_triangles: self.jobs.len() as u64,
-            microtriangles: sum(&SubdivisionLevel::microtriangles),
-            array_bytes: sum(&|level| options.format.data_size(level)),
+    fn advance(&self, count: u64) {
+        let done = self.done.fetch_add(count, Ordering::Relaxed).saturating_add(count);
+        let total = self.total.load(Ordering::Relaxed);
+        if (self.progress)(Progress { done, total }).flow().is_break() {
+            self.cancelled.store(true, Ordering::Relaxed);
         }
     }
-}
 
-/// Takes finished blocks in their final order.
-struct Collector<'a> {
-    options: &'a BakeOptions,
-    array: ArrayBuilder,
-    statistics: BakeStatistics,
-}
-
-impl<'a> Collector<'a> {
-    fn new(options: &'a BakeOptions) -> Self {
-        Self { options, array: ArrayBuilder::new(options.merge), statistics: BakeStatistics::default() }
-    }
-
-    /// The entry of the index buffer for a block that `uses` triangles of the mesh have.
-    fn add(&mut self, block: &Block, level: SubdivisionLevel, uses: u64) -> Result<i32, BakeError> {
-        let Block { data, tally } = block;
-        self.statistics.triangle_states.add_all(tally.states, uses);
-        self.statistics.undecided += tally.undecided * uses;
-        if self.options.special_indices
-            && let Some(state) = tally.states.only_state()
-        {
-            self.statistics.special_indices.add(state, uses);
-            return Ok(OpacityMicromapSpecialIndex::of_state(state).value());
-        }
-        let (index, is_new) = self.array.add(level, self.options.format, data)?;
-        if is_new {
-            self.statistics.array_states.add_all(tally.states, 1);
-        }
-        // There are no more micromap triangles than triangles, of which there are at most i32::MAX.
-        Ok(index as i32)
-    }
-
-    /// The entry of the index buffer for a triangle that cannot be baked.
-    fn add_unbakeable(&mut self, level: SubdivisionLevel, baker: &BlockBaker<'_>) -> Result<i32, BakeError> {
-        let special = self.options.unbakeable;
-        if self.options.special_indices {
-            self.statistics.triangle_states.add(special.state(), level.microtriangles().into());
-            self.statistics.special_indices.add(special.state(), 1);
-            return Ok(special.value());
-        }
-        self.add(&baker.uniform(special.state(), level), level, 1)
-    }
-
-    fn finish(mut self, schedule: Schedule, entries: &[i32], baker: &BlockBaker<'_>) -> Result<BakeOutput, BakeError> {
-        let mut indices = Vec::with_capacity(schedule.plans.len());
-        for plan in &schedule.plans {
-            indices.push(match *plan {
-                Plan::Job(job) => entries[job as usize],
-                Plan::Unbakeable(level) => self.add_unbakeable(level, baker)?,
-            });
-        }
-        let (array, triangles) = self.array.finish();
-        let referred = indices.iter().filter_map(|&index| triangles.get(usize::try_from(index).ok()?)).copied();
-        let statistics = BakeStatistics {
-            triangles: schedule.plans.len() as u64,
-            baked_triangles: schedule.jobs.len() as u64,
-            micromap_triangles: triangles.len() as u64,
-            known_fraction: self.statistics.triangle_states.known_fraction(),
-            not_finite: schedule.not_finite,
-            out_of_range: schedule.out_of_range,
-            array_bytes: array.len() as u64,
-            ..self.statistics
-        };
-        Ok(BakeOutput {
-            usage_counts: usage::histogram(triangles.iter().copied()),
-            index_usage_counts: usage::histogram(referred),
-            array,
-            triangles,
-            indices,
-            statistics,
-        })
+    fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
     }
 }

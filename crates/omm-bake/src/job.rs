@@ -20,9 +20,14 @@
 //! | field | meaning |
 //! |---|---|
 //! | `name` | what the results are called |
-//! | `texture` | rows of texels from *v* = 0 upwards without gaps, each a byte (`unorm8`) or a little-endian `f32` (`fp32`) |
-//! | `uvs` | a little-endian `f32` pair for each vertex |
-//! | `triangles` | a little-endian `u32` triple of vertices for each triangle |
+//! | `texture` | rows of texels from *v* = 0 upwards, each a byte (`unorm8`) or a little-endian `f32` (`fp32`) |
+//! | `texture.row_pitch` | bytes from the start of one row to the start of the next; without gaps if absent |
+//! | `texture.mips` | files of mips 1 and on, each half as large as the one before, without gaps; none if absent |
+//! | `uvs` | a pair for each vertex |
+//! | `uv_format` | `float32` (if absent), `float16` or `unorm16`, little-endian |
+//! | `uv_stride` | bytes from one vertex to the next; without gaps if absent |
+//! | `triangles` | a triple of vertices for each triangle |
+//! | `index_format` | `uint8`, `uint16` or `uint32` (if absent), little-endian |
 //! | `format` | `2-state` or `4-state` |
 //! | `max_level` | the level of all triangles, 0 to 12; with a dynamic scale, the finest level |
 //! | `dynamic_subdivision_scale` | texels along the side of a microtriangle; `null` or absent: a uniform level |
@@ -42,11 +47,16 @@ use omm_model::level::{SubdivisionLevel, SubdivisionLevelError};
 use serde::Deserialize;
 
 use crate::files;
+use crate::input::{IndexFormat, InputError, UvFormat, read_triangles, read_uvs};
 use crate::level::LevelChoice;
 use crate::options::{BakeInput, BakeOptions};
 use crate::promotion::UnknownStatePromotion;
 use crate::sampler::{AddressMode, Filter, Sampler};
-use crate::texture::{MAX_SIDE, Texture, TextureError};
+use crate::texture::{Texture, TextureError};
+
+mod texture;
+
+use texture::TextureFile;
 
 /// A job, read and checked.
 #[derive(Debug)]
@@ -144,6 +154,22 @@ pub enum JobErrorKind {
         /// Bytes of an item.
         item: u64,
     },
+    /// Vertices overlap, or the last is cut short.
+    #[error("{}: {source}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with its size.
+        source: InputError,
+    },
+    /// A row does not start with a texel.
+    #[error("a row pitch of {found} bytes is not a multiple of {texel}, the bytes of a texel")]
+    RowPitch {
+        /// The pitch given.
+        found: u64,
+        /// Bytes of a texel.
+        texel: u64,
+    },
     /// A triangle names a vertex that does not exist.
     #[error(
         "{}: byte {offset}: vertex {found} of triangle {triangle} is out of range: there are {vertices} vertices",
@@ -172,7 +198,13 @@ struct JobFile {
     name: String,
     texture: TextureFile,
     uvs: PathBuf,
+    #[serde(default)]
+    uv_format: UvFormat,
+    #[serde(default)]
+    uv_stride: usize,
     triangles: PathBuf,
+    #[serde(default)]
+    index_format: IndexFormat,
     format: Format,
     max_level: u32,
     #[serde(default)]
@@ -183,22 +215,6 @@ struct JobFile {
     border_alpha: f32,
     alpha_cutoff: f32,
     unknown_state_promotion: UnknownStatePromotion,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TextureFile {
-    path: PathBuf,
-    width: u32,
-    height: u32,
-    format: TexelFormat,
-}
-
-#[derive(Clone, Copy, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum TexelFormat {
-    Unorm8,
-    Fp32,
 }
 
 #[derive(Clone, Copy, Deserialize)]
@@ -232,9 +248,9 @@ impl JobFile {
         }
         let options = self.options()?;
         let texture = self.texture.read(folder)?;
-        let uvs = pairs(&part(folder, &self.uvs, "uvs", Size::MultipleOf(8))?);
+        let uvs = self.read_uvs(folder)?;
         let triangles = self.read_triangles(folder, uvs.len())?;
-        let parts = [&self.texture.path, &self.uvs, &self.triangles].map(|part| folder.join(part));
+        let parts = self.texture.files().chain([&self.uvs, &self.triangles]).map(|part| folder.join(part));
         let files = std::iter::once(file.to_path_buf()).chain(parts).collect();
         Ok(Job { name, texture, uvs, triangles, options, files })
     }
@@ -262,60 +278,35 @@ impl JobFile {
         })
     }
 
+    fn read_uvs(&self, folder: &Path) -> Result<Vec<[f32; 2]>, FieldError> {
+        let &Self { ref uvs, uv_format: format, uv_stride: stride, .. } = self;
+        let size = if stride == 0 { Size::MultipleOf(format.size() as u64) } else { Size::MultipleOf(1) };
+        let bytes = part(folder, uvs, "uvs", size)?;
+        let fail = |source| ("uvs", JobErrorKind::Input { path: folder.join(uvs), source });
+        read_uvs(&bytes, format, stride).map_err(fail)
+    }
+
     fn read_triangles(&self, folder: &Path, vertices: usize) -> Result<Vec<[u32; 3]>, FieldError> {
         const FIELD: &str = "triangles";
-        let bytes = part(folder, &self.triangles, FIELD, Size::MultipleOf(12))?;
-        let triangles: Vec<[u32; 3]> = bytes
-            .as_chunks::<4>()
-            .0
-            .as_chunks::<3>()
-            .0
-            .iter()
-            .map(|triangle| triangle.map(u32::from_le_bytes))
-            .collect();
+        let &Self { triangles: ref path, index_format: format, .. } = self;
+        let bytes = part(folder, path, FIELD, Size::MultipleOf(3 * format.size() as u64))?;
+        let fail = |source| (FIELD, JobErrorKind::Input { path: folder.join(path), source });
+        let triangles = read_triangles(&bytes, format).map_err(fail)?;
         let beyond = triangles.as_flattened().iter().position(|&index| index as usize >= vertices);
         match beyond {
             None => Ok(triangles),
             Some(position) => {
                 let found = triangles.as_flattened().get(position).copied().unwrap_or_default();
-                let path = folder.join(&self.triangles);
-                let (offset, triangle) = (4 * position as u64, position / 3);
+                let path = folder.join(path);
+                let (offset, triangle) = ((format.size() * position) as u64, position / 3);
                 Err((FIELD, JobErrorKind::VertexIndex { path, offset, triangle, found, vertices }))
             }
         }
     }
 }
 
-impl TextureFile {
-    fn read(&self, folder: &Path) -> Result<Texture, FieldError> {
-        let &Self { ref path, width, height, format } = self;
-        // Sizes that make no texture are told before they are held against the file's.
-        if width == 0 || height == 0 {
-            return Err(("texture", TextureError::Empty { width, height }.into()));
-        }
-        if width > MAX_SIDE || height > MAX_SIDE {
-            return Err(("texture", TextureError::TooLarge { width, height }.into()));
-        }
-        let texels = u64::from(width) * u64::from(height);
-        let texture = match format {
-            TexelFormat::Unorm8 => {
-                Texture::unorm8(width, height, part(folder, path, "texture.path", Size::Exactly(texels))?)
-            }
-            TexelFormat::Fp32 => {
-                let bytes = part(folder, path, "texture.path", Size::Exactly(4 * texels))?;
-                Texture::fp32(width, height, bytes.as_chunks().0.iter().copied().map(f32::from_le_bytes).collect())
-            }
-        };
-        texture.map_err(|error| ("texture.path", error.into()))
-    }
-}
-
 fn finite(field: &'static str, found: f32) -> Result<(), FieldError> {
     if found.is_finite() { Ok(()) } else { Err((field, JobErrorKind::Number { found, positive: false })) }
-}
-
-fn pairs(bytes: &[u8]) -> Vec<[f32; 2]> {
-    bytes.as_chunks::<4>().0.as_chunks::<2>().0.iter().map(|pair| pair.map(f32::from_le_bytes)).collect()
 }
 
 /// What size a file must have.

@@ -11,7 +11,7 @@ use crate::texel_triangle::TexelTriangle;
 pub enum LevelChoice {
     /// The same level for all triangles.
     Uniform(SubdivisionLevel),
-    /// A level by the area that the triangle covers in the texture.
+    /// A level by the area that the triangle covers in the finest mip that is read.
     Dynamic {
         /// One microtriangle covers about `scale` x `scale` texels; finite and above 0.
         scale: f32,

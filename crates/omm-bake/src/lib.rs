@@ -12,7 +12,10 @@
 //! | [`classify`](mod@classify) | the decision for one microtriangle, and the proof of its error bounds |
 //! | [`level`], [`promotion`] | how finely a triangle is split; which unknown state a mixed microtriangle gets |
 //! | `job`, `gltf`, `image`, `picture` | with the feature `files`: what is baked, from files; pictures of what was baked |
+//! | [`input`], [`mip`] | texture coordinates and triangles as buffers hold them; which mips are read |
 //! | [`bake`](mod@bake), [`options`], [`statistics`], [`error`] | everything for a mesh: array, triangles, index buffer, histograms, counts |
+//! | [`order`], [`coverage`](mod@coverage) | in which order blocks lie; what needs no shader, triangle by triangle |
+//! | [`dry_run`](mod@dry_run), [`downsample`](mod@downsample) | what a bake would make; lower levels from what was baked |
 //!
 //! # Example
 //!
@@ -48,7 +51,12 @@
 
 pub mod bake;
 mod block;
+mod budget;
 pub mod classify;
+mod collect;
+pub mod coverage;
+pub mod downsample;
+pub mod dry_run;
 pub mod error;
 mod exact;
 #[cfg(feature = "files")]
@@ -57,28 +65,42 @@ mod files;
 pub mod gltf;
 #[cfg(feature = "files")]
 pub mod image;
+pub mod input;
 #[cfg(feature = "files")]
 pub mod job;
+mod layers;
 pub mod level;
+mod lowering;
 mod merge;
+pub mod mip;
+mod near;
 pub mod options;
+pub mod order;
+mod packed;
 mod patch;
 #[cfg(feature = "files")]
 pub mod picture;
 mod planes;
 pub mod promotion;
 pub mod sampler;
+mod schedule;
 pub mod statistics;
 pub mod surface;
 pub mod texel_triangle;
 pub mod texture;
 mod window;
 
-pub use bake::{BakeOutput, Progress, WorkEstimate, bake, estimate};
+pub use bake::{BakeOutput, Progress, ProgressAnswer, WorkEstimate, bake, estimate};
 pub use classify::{Classification, classify};
+pub use coverage::{Coverage, coverage};
+pub use downsample::downsample;
+pub use dry_run::{DryRun, dry_run};
 pub use error::BakeError;
+pub use input::{IndexFormat, UvFormat};
 pub use level::LevelChoice;
-pub use options::{BakeInput, BakeOptions};
+pub use mip::MipChoice;
+pub use options::{BakeInput, BakeOptions, CutoffStates, TriangleOverride};
+pub use order::BlockOrder;
 pub use promotion::UnknownStatePromotion;
 pub use sampler::{AddressMode, Filter, Sampler};
 pub use statistics::{BakeStatistics, StateCounts};

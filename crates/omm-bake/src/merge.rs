@@ -1,8 +1,8 @@
 //! The array under construction: blocks in order, the same bytes only once.
 
-use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hasher};
 
+use hashbrown::HashTable;
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::triangle::MicromapTriangle;
@@ -18,53 +18,68 @@ pub(crate) const MAX_ARRAY_BYTES: u64 = u32::MAX as u64;
 #[derive(Debug)]
 pub(crate) struct ArrayBuilder {
     merge: bool,
+    /// Every block starts at a multiple of it, in bytes.
+    alignment: u32,
     bytes: Vec<u8>,
     triangles: Vec<MicromapTriangle>,
-    /// Triangles by a hash of their level and bytes; the bytes decide.
-    by_hash: HashMap<u64, Vec<u32>>,
+    /// Triangles by a hash of their level, format and bytes.
+    by_content: HashTable<u32>,
 }
 
 impl ArrayBuilder {
-    pub(crate) fn new(merge: bool) -> Self {
-        Self { merge, bytes: Vec::new(), triangles: Vec::new(), by_hash: HashMap::new() }
+    pub(crate) fn new(merge: bool, alignment: u32) -> Self {
+        Self { merge, alignment, bytes: Vec::new(), triangles: Vec::new(), by_content: HashTable::new() }
     }
 
-    /// The index of the micromap triangle with this level, format and data, and whether it is new.
+    /// Bytes so far.
+    pub(crate) fn len(&self) -> u64 {
+        self.bytes.len() as u64
+    }
+
+    /// The index of the micromap triangle with this level, format and data.
     pub(crate) fn add(
         &mut self,
         subdivision_level: SubdivisionLevel,
         format: OpacityMicromapFormat,
         data: &[u8],
-    ) -> Result<(u32, bool), BakeError> {
-        let hash = hash(subdivision_level, format, data);
-        if self.merge
-            && let Some(same) = self.by_hash.get(&hash).and_then(|candidates| {
-                candidates.iter().find(|&&candidate| self.is(candidate, subdivision_level, format, data))
-            })
+    ) -> Result<u32, BakeError> {
+        let hash = if self.merge { hash(subdivision_level, format, data) } else { 0 };
+        let Self { bytes, triangles, .. } = self;
+        let content = |index: u32| {
+            let triangle = triangles.get(index as usize)?;
+            let start = triangle.data_offset as usize;
+            let data = bytes.get(start..start + triangle.data_size() as usize)?;
+            Some((triangle.subdivision_level, triangle.format, data))
+        };
+        if let Some(&same) =
+            self.by_content.find(hash, |&index| content(index) == Some((subdivision_level, format, data)))
         {
-            return Ok((*same, false));
+            return Ok(same);
         }
-        let required = self.bytes.len() as u64 + data.len() as u64;
+        let start = self.len().next_multiple_of(self.alignment.into());
+        let required = start + data.len() as u64;
         if required > MAX_ARRAY_BYTES {
             return Err(BakeError::ArrayTooLarge { required, limit: MAX_ARRAY_BYTES });
         }
-        self.bytes.try_reserve(data.len()).map_err(|_| BakeError::OutOfMemory { required })?;
+        let additional = (required - self.len()) as usize;
+        self.bytes.try_reserve(additional).map_err(|_| BakeError::OutOfMemory { required })?;
         // Below 2^32 by the check above. Every triangle has at least a byte, so their number is, too.
-        let (data_offset, index) = (self.bytes.len() as u32, self.triangles.len() as u32);
+        let (data_offset, index) = (start as u32, self.triangles.len() as u32);
+        self.bytes.resize(start as usize, 0);
         self.bytes.extend_from_slice(data);
         self.triangles.push(MicromapTriangle { data_offset, subdivision_level, format });
         if self.merge {
-            self.by_hash.entry(hash).or_default().push(index);
+            let Self { bytes, triangles, by_content, .. } = self;
+            let rehash = |&index: &u32| {
+                triangles.get(index as usize).map_or(0, |triangle: &MicromapTriangle| {
+                    let start = triangle.data_offset as usize;
+                    let data = bytes.get(start..start + triangle.data_size() as usize).unwrap_or_default();
+                    self::hash(triangle.subdivision_level, triangle.format, data)
+                })
+            };
+            by_content.insert_unique(hash, index, rehash);
         }
-        Ok((index, true))
-    }
-
-    fn is(&self, index: u32, level: SubdivisionLevel, format: OpacityMicromapFormat, data: &[u8]) -> bool {
-        self.triangles.get(index as usize).is_some_and(|triangle| {
-            let start = triangle.data_offset as usize;
-            (triangle.subdivision_level, triangle.format) == (level, format)
-                && self.bytes.get(start..start + data.len()) == Some(data)
-        })
+        Ok(index)
     }
 
     /// The array's bytes and the triangles that read them.
@@ -74,8 +89,8 @@ impl ArrayBuilder {
     }
 }
 
-/// A hash that is the same in every run.
-fn hash(level: SubdivisionLevel, format: OpacityMicromapFormat, data: &[u8]) -> u64 {
+/// A hash of a block that is the same in every run.
+pub(crate) fn hash(level: SubdivisionLevel, format: OpacityMicromapFormat, data: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     hasher.write_u32(level.get());
     hasher.write_u16(format.value());
@@ -92,7 +107,7 @@ mod tests {
         let level = |level| SubdivisionLevel::new(level).unwrap();
         let (two, four) = (OpacityMicromapFormat::TwoState, OpacityMicromapFormat::FourState);
         for (merge, expected) in [(true, vec![0, 1, 0, 2, 3]), (false, vec![0, 1, 2, 3, 4])] {
-            let mut builder = ArrayBuilder::new(merge);
+            let mut builder = ArrayBuilder::new(merge, 1);
             let blocks: [(_, _, &[u8]); 5] = [
                 (level(2), four, &[1, 2, 3, 4]),
                 (level(2), four, &[1, 2, 3, 5]),
@@ -101,7 +116,7 @@ mod tests {
                 // The same byte means something else at another level or in another format.
                 (level(1), two, &[5]),
             ];
-            let indices = blocks.map(|(level, format, data)| builder.add(level, format, data).unwrap().0);
+            let indices = blocks.map(|(level, format, data)| builder.add(level, format, data).unwrap());
             assert_eq!(indices, expected[..]);
             let (bytes, triangles) = builder.finish();
             assert_eq!(bytes.len(), if merge { 10 } else { 14 });
@@ -111,5 +126,14 @@ mod tests {
                 end = triangle.data_range().end;
             }
         }
+    }
+
+    #[test]
+    fn blocks_are_moved_to_the_next_multiple() {
+        let mut builder = ArrayBuilder::new(true, 4);
+        for byte in 1..=3 {
+            builder.add(SubdivisionLevel::ZERO, OpacityMicromapFormat::FourState, &[byte]).unwrap();
+        }
+        assert_eq!(builder.finish().0, [1, 0, 0, 0, 2, 0, 0, 0, 3]);
     }
 }

@@ -97,9 +97,16 @@ pub struct BakeStatistics {
     /// Triangles of the mesh with a texture coordinate beyond
     /// [`MAX_COORDINATE`](crate::texel_triangle::MAX_COORDINATE) texels.
     pub out_of_range: u64,
-    /// Microtriangles, of all triangles of the mesh, that are unknown because deciding would have taken more than the
-    /// budget of [`classify`](mod@crate::classify).
+    /// Microtriangles, of all triangles of the mesh and once for each mip, that are unknown because deciding would have taken more than
+    /// the budget of [`classify`](mod@crate::classify).
     pub undecided: u64,
+    /// Triangles of the mesh of which less than [`rejection_threshold`](crate::BakeOptions::rejection_threshold) was known.
+    pub rejected: u64,
+    /// Triangles of the mesh whose level was lowered, or that were given up, to meet
+    /// [`max_array_bytes`](crate::BakeOptions::max_array_bytes).
+    pub lowered: u64,
+    /// Micromap triangles that became one with another that was almost the same.
+    pub near_merged: u64,
     /// Bytes of the array.
     pub array_bytes: u64,
 }

@@ -3,7 +3,9 @@
 /// The longest side of a texture, in texels.
 pub const MAX_SIDE: u32 = 65_536;
 
-/// One mip level of an alpha channel, row by row from *v* = 0 upwards.
+/// An alpha channel, row by row from *v* = 0 upwards, and perhaps its smaller mips.
+///
+/// Sizes and texels are those of the texture itself, which is mip 0; [`mip`](Self::mip) has the others.
 ///
 /// Texel (i, j) is centred at ((i + 0.5) / width, (j + 0.5) / height).
 #[derive(Clone, Debug)]
@@ -15,6 +17,8 @@ pub struct Texture {
     texels: Texels,
     /// The least and the greatest stored value.
     extremes: [f64; 2],
+    /// Mips 1 and on.
+    mips: Vec<Texture>,
 }
 
 #[derive(Clone, Debug)]
@@ -72,6 +76,25 @@ pub enum TextureError {
         /// Its value.
         value: f32,
     },
+    /// A mip is not half as large as the one before, rounded down.
+    #[error(
+        "mip {mip} has {} x {} texels, but half of the mip before is {} x {}",
+        found[0], found[1], required[0], required[1]
+    )]
+    MipSize {
+        /// Number of the mip.
+        mip: u32,
+        /// Its width and height in texels.
+        found: [u32; 2],
+        /// The sizes that it must have.
+        required: [u32; 2],
+    },
+    /// There are mips behind the one of a single texel, or a mip has mips of its own.
+    #[error("mip {mip} cannot be: the one before has a single texel, or brings mips of its own")]
+    MipChain {
+        /// Number of the mip.
+        mip: u32,
+    },
 }
 
 impl Texture {
@@ -100,7 +123,14 @@ impl Texture {
         for row in rows(&data, width, row_pitch) {
             extremes = row.iter().fold(extremes, |[least, most], &value| [least.min(value), most.max(value)]);
         }
-        Ok(Self { width, height, row_pitch, texels: Texels::Unorm8(data), extremes: extremes.map(f64::from) })
+        Ok(Self {
+            width,
+            height,
+            row_pitch,
+            texels: Texels::Unorm8(data),
+            extremes: extremes.map(f64::from),
+            mips: Vec::new(),
+        })
     }
 
     /// A texture of `width` x `height` floats without gaps between rows; alpha is the float, which need not be in 0..=1.
@@ -133,7 +163,52 @@ impl Texture {
                 extremes = [extremes[0].min(value), extremes[1].max(value)];
             }
         }
-        Ok(Self { width, height, row_pitch, texels: Texels::Fp32(data), extremes: extremes.map(f64::from) })
+        Ok(Self {
+            width,
+            height,
+            row_pitch,
+            texels: Texels::Fp32(data),
+            extremes: extremes.map(f64::from),
+            mips: Vec::new(),
+        })
+    }
+
+    /// The texture with `mips` behind it: each as large as half of the one before, rounded down, but no smaller than a texel. They need
+    /// not go on to the last.
+    ///
+    /// # Errors
+    /// [`TextureError::MipSize`] or [`TextureError::MipChain`] names the first mip that cannot be one.
+    pub fn with_mips(mut self, mips: Vec<Self>) -> Result<Self, TextureError> {
+        let mut before = &self;
+        for (mip, next) in (1..).zip(&mips) {
+            let [width, height] = [before.width, before.height];
+            if (width, height) == (1, 1) || !next.mips.is_empty() {
+                return Err(TextureError::MipChain { mip });
+            }
+            let (found, required) = ([next.width, next.height], [(width / 2).max(1), (height / 2).max(1)]);
+            if found != required {
+                return Err(TextureError::MipSize { mip, found, required });
+            }
+            before = next;
+        }
+        self.mips = mips;
+        Ok(self)
+    }
+
+    /// How many mips there are, this one included: at least 1.
+    #[must_use]
+    pub const fn mip_count(&self) -> u32 {
+        // No more than 17 by their sizes.
+        1 + self.mips.len() as u32
+    }
+
+    /// Mip `mip`, 0 being this texture.
+    #[must_use]
+    pub fn mip(&self, mip: u32) -> Option<&Self> {
+        match mip.checked_sub(1) {
+            None => Some(self),
+            Some(behind) => self.mips.get(behind as usize),
+        }
     }
 
     /// Width in texels, `1..=MAX_SIDE`.
@@ -295,6 +370,22 @@ mod tests {
         let padding = Texture::fp32_with_row_pitch(1, 2, 2, vec![0.5, f32::NAN, 1.5]).unwrap();
         assert_eq!(padding.extremes(), [0.5, 1.5]);
         assert_eq!((padding.alpha(0, 1), padding.alpha(1, 0)), (Some(1.5), None));
+    }
+
+    #[test]
+    fn mips_are_half_as_large() {
+        let texture = |width, height| Texture::unorm8(width, height, vec![0; (width * height) as usize]).unwrap();
+        let chain = texture(5, 3).with_mips(vec![texture(2, 1), texture(1, 1)]).unwrap();
+        assert_eq!(chain.mip_count(), 3);
+        assert_eq!([0, 1, 2, 3].map(|mip| chain.mip(mip).map(Texture::width)), [Some(5), Some(2), Some(1), None]);
+        let error = |texture: Texture, mips| texture.with_mips(mips).unwrap_err().to_string();
+        assert_eq!(
+            error(texture(5, 3), vec![texture(2, 1), texture(1, 2)]),
+            "mip 2 has 1 x 2 texels, but half of the mip before is 1 x 1"
+        );
+        let cannot = "mip 1 cannot be: the one before has a single texel, or brings mips of its own";
+        assert_eq!(error(texture(1, 1), vec![texture(1, 1)]), cannot);
+        assert_eq!(error(texture(10, 6), vec![chain]), cannot);
     }
 
     #[test]

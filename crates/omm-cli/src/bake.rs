@@ -3,9 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args, ValueEnum};
+use clap::{Args, ValueEnum};
 use omm_bake::gltf::{self, GltfFile};
-use omm_bake::image::{BlockDecoding, Channel, ImageOptions};
+use omm_bake::image::ImageOptions;
 use omm_bake::job::{self, Job};
 use omm_bake::{BakeInput, BakeOptions, BakeOutput, LevelChoice, UnknownStatePromotion};
 use omm_model::format::OpacityMicromapFormat;
@@ -18,26 +18,32 @@ use crate::output::{self, OutputSet};
 use crate::progress::Progress;
 
 mod baked;
+mod dry;
+mod images;
 mod report;
 mod statistics;
 mod target;
+mod tuning;
 
 use baked::Baked;
+use dry::Forecast;
+use images::Images;
 pub(crate) use report::ReportError;
 use statistics::Statistics;
 use target::Target;
+use tuning::Tuning;
 
 /// Arguments of `omm bake`.
 #[derive(Debug, Args)]
-#[command(after_help = HELP, group(ArgGroup::new("target").required(true)))]
+#[command(after_help = HELP)]
 pub(crate) struct BakeArgs {
     /// A glTF file (.gltf, .glb), of which every alpha-masked primitive is baked, or a job file (.json).
     input: PathBuf,
     /// Where results go; made if absent.
-    #[arg(long, value_name = "DIR", group = "target")]
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["dry_run", "bundle"])]
     out: Option<PathBuf>,
     /// Put all results into one bundle and not into a folder.
-    #[arg(short = 'o', long, value_name = "FILE.omm", group = "target", conflicts_with = "picture")]
+    #[arg(short = 'o', long, value_name = "FILE.omm", conflicts_with_all = ["out", "picture", "coverage", "index_type"])]
     bundle: Option<PathBuf>,
     /// Also draw each texture with its microtriangles coloured by state.
     #[arg(long)]
@@ -48,15 +54,6 @@ pub(crate) struct BakeArgs {
     /// Also write the glTF file with the micromaps in it, complete in itself; .gltf or .glb says which kind.
     #[arg(long, value_name = "OUT.glb")]
     gltf: Option<PathBuf>,
-    /// Which channel of a glTF file's images is alpha.
-    #[arg(long, value_name = "CHANNEL", default_value = "alpha")]
-    channel: ChannelArgument,
-    /// Which mip level of a glTF file's DDS and KTX2 images is baked.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    mip_level: u32,
-    /// As which device the BC3, BC4 and BC5 texels of a glTF file's images are decoded.
-    #[arg(long, value_name = "DEVICE", default_value = "specification")]
-    block_decoding: BlockDecodingArgument,
     /// Subdivision level of every triangle, 0 to 12; with --dynamic, the finest.
     #[arg(long, value_name = "L", value_parser = level)]
     level: Option<SubdivisionLevel>,
@@ -78,6 +75,10 @@ pub(crate) struct BakeArgs {
     /// How many threads bake; one for each core if 0.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
+    #[command(flatten)]
+    images: Images,
+    #[command(flatten)]
+    tuning: Tuning,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -90,8 +91,9 @@ enum States {
     Four,
 }
 
+/// Which unknown state a mixed microtriangle gets.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Promotion {
+pub(crate) enum Promotion {
     /// The one that more of it is.
     Nearest,
     /// Unknown opaque.
@@ -102,28 +104,14 @@ enum Promotion {
     ForceTransparent,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ChannelArgument {
-    /// Red, or grey.
-    #[value(alias = "r")]
-    Red,
-    /// Green.
-    #[value(alias = "g")]
-    Green,
-    /// Blue.
-    #[value(alias = "b")]
-    Blue,
-    /// Alpha.
-    #[value(alias = "a")]
-    Alpha,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum BlockDecodingArgument {
-    /// The fractions that are specified.
-    Specification,
-    /// As measured on NVIDIA devices.
-    Nvidia,
+impl From<Promotion> for UnknownStatePromotion {
+    fn from(promotion: Promotion) -> Self {
+        match promotion {
+            Promotion::Nearest => Self::Nearest,
+            Promotion::ForceOpaque => Self::ForceOpaque,
+            Promotion::ForceTransparent => Self::ForceTransparent,
+        }
+    }
 }
 
 /// A finite number above 0 as an argument.
@@ -136,8 +124,16 @@ fn positive(text: &str) -> Result<f32, String> {
 
 /// Runs `omm bake`.
 pub(crate) fn run(args: &BakeArgs, format: Format) -> Result<Outcome, CliError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
-    let (results, place) = pool.map_err(CliError::Threads)?.install(|| args.bake())?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build().map_err(CliError::Threads)?;
+    if args.tuning.dry_run {
+        let forecasts = pool.install(|| args.forecast())?;
+        match format {
+            Format::Text => output::print(|out| dry::print(&forecasts, out))?,
+            Format::Json => output::print_json(&forecasts)?,
+        }
+        return Ok(Outcome::Clean);
+    }
+    let (results, place) = pool.install(|| args.bake())?;
     match format {
         Format::Text => output::print(|out| print(&results, &place, out))?,
         Format::Json => output::print_json(&results)?,
@@ -147,7 +143,7 @@ pub(crate) fn run(args: &BakeArgs, format: Format) -> Result<Outcome, CliError> 
 
 /// What an input file holds.
 enum Input {
-    Job(Job),
+    Job(Box<Job>),
     Gltf(GltfFile),
 }
 
@@ -158,7 +154,7 @@ impl Input {
         if name.ends_with(".gltf") || name.ends_with(".glb") || output::starts_with(path, b"glTF")? {
             Ok(Self::Gltf(gltf::read(path, options)?))
         } else if name.ends_with(".json") {
-            Ok(Self::Job(job::read(path)?))
+            Ok(Self::Job(Box::new(job::read(path)?)))
         } else {
             Err(CliError::UnknownInput { path: path.into() })
         }
@@ -173,36 +169,26 @@ impl Input {
     }
 }
 
+/// One thing to bake.
+struct Item<'a> {
+    name: &'a str,
+    /// The name of the mesh in the file, which may be anything.
+    label: Option<&'a str>,
+    /// Number of the mesh in the glTF file and of the primitive in the mesh; none for a job.
+    place: Option<(usize, usize)>,
+    /// Number of the texture among those of the file.
+    texture: usize,
+    input: BakeInput<'a>,
+    options: BakeOptions,
+}
+
 impl BakeArgs {
     /// Bakes everything and leaves the results in their place, which it names: all or none.
     fn bake(&self) -> Result<(Vec<Statistics>, PathBuf), CliError> {
-        let input = Input::read(&self.input, self.image_options())?;
+        let input = Input::read(&self.input, self.images.options())?;
         self.check_gltf(&input)?;
         let mut files = Target::new(self, &input)?;
-        let mut all = Vec::new();
-        match &input {
-            Input::Job(job) => {
-                let options = self.options(job.options.clone());
-                let (output, statistics) = self.bake_one(&job.name, &job.input(), &options)?;
-                let input = job.input();
-                all.push(Baked { label: None, place: None, texture: 0, input, options, output, statistics });
-            }
-            Input::Gltf(file) => {
-                for primitive in &file.primitives {
-                    let Some(texture) = file.textures.get(primitive.texture) else { continue };
-                    let BakeArgs { cutoff, .. } = *self;
-                    let options = BakeOptions {
-                        sampler: primitive.sampler,
-                        alpha_cutoff: cutoff.map_or(primitive.alpha_cutoff, |cutoff| primitive.cutoff_for(cutoff)),
-                        ..self.options(BakeOptions::default())
-                    };
-                    let input = BakeInput { texture, uvs: &primitive.uvs, triangles: &primitive.triangles };
-                    let (output, statistics) = self.bake_one(&primitive.name, &input, &options)?;
-                    let (label, place) = (primitive.mesh_name.as_deref(), Some((primitive.mesh, primitive.primitive)));
-                    all.push(Baked { label, place, texture: primitive.texture, input, options, output, statistics });
-                }
-            }
-        }
+        let all: Vec<_> = self.items(&input)?.into_iter().map(|item| self.bake_one(item)).collect::<Result<_, _>>()?;
         if self.picture {
             files.add_pictures(&all)?;
         }
@@ -210,8 +196,7 @@ impl BakeArgs {
         let gltf = self.gltf.as_deref().map(|path| baked::stage_gltf(&self.input, &all, path)).transpose()?;
         let mut results = Vec::new();
         for one in all {
-            files.add(one.output, &one.statistics)?;
-            results.push(one.statistics);
+            results.push(files.add(one, self.tuning.coverage)?);
         }
         let place = files.commit()?;
         for files in [report, gltf].into_iter().flatten() {
@@ -220,18 +205,44 @@ impl BakeArgs {
         Ok((results, place))
     }
 
-    fn image_options(&self) -> ImageOptions {
-        let channel = match self.channel {
-            ChannelArgument::Red => Channel::Red,
-            ChannelArgument::Green => Channel::Green,
-            ChannelArgument::Blue => Channel::Blue,
-            ChannelArgument::Alpha => Channel::Alpha,
+    /// Says what would be baked.
+    fn forecast(&self) -> Result<Vec<Forecast>, CliError> {
+        let input = Input::read(&self.input, self.images.options())?;
+        let forecast = |item: Item<'_>| {
+            Forecast::new(item.name, &item.input, &item.options).map_err(dry::refused(&self.input, item.name))
         };
-        let block_decoding = match self.block_decoding {
-            BlockDecodingArgument::Specification => BlockDecoding::Specification,
-            BlockDecodingArgument::Nvidia => BlockDecoding::Nvidia,
-        };
-        ImageOptions { channel, mip_level: self.mip_level, block_decoding }
+        self.items(&input)?.into_iter().map(forecast).collect()
+    }
+
+    /// Everything to bake, in order.
+    fn items<'a>(&self, input: &'a Input) -> Result<Vec<Item<'a>>, CliError> {
+        match input {
+            Input::Job(job) => {
+                let options = self.options(job.options.clone())?;
+                Ok(vec![Item { name: &job.name, label: None, place: None, texture: 0, input: job.input(), options }])
+            }
+            Input::Gltf(file) => {
+                let mut items = Vec::new();
+                for primitive in &file.primitives {
+                    let Some(texture) = file.textures.get(primitive.texture) else { continue };
+                    let BakeArgs { cutoff, .. } = *self;
+                    let options = BakeOptions {
+                        sampler: primitive.sampler,
+                        alpha_cutoff: cutoff.map_or(primitive.alpha_cutoff, |cutoff| primitive.cutoff_for(cutoff)),
+                        ..self.options(BakeOptions::default())?
+                    };
+                    items.push(Item {
+                        name: &primitive.name,
+                        label: primitive.mesh_name.as_deref(),
+                        place: Some((primitive.mesh, primitive.primitive)),
+                        texture: primitive.texture,
+                        input: BakeInput { texture, uvs: &primitive.uvs, triangles: &primitive.triangles },
+                        options,
+                    });
+                }
+                Ok(items)
+            }
+        }
     }
 
     /// `--gltf` needs a glTF file to add to, and a name that says what kind is to be written.
@@ -244,7 +255,7 @@ impl BakeArgs {
     }
 
     /// `options` with those of the command line in their place.
-    fn options(&self, options: BakeOptions) -> BakeOptions {
+    fn options(&self, options: BakeOptions) -> Result<BakeOptions, CliError> {
         let level = match (self.level, self.dynamic, options.level) {
             (None, None, level) => level,
             (Some(level), None, _) => LevelChoice::Uniform(level),
@@ -257,48 +268,45 @@ impl BakeArgs {
             States::Two => OpacityMicromapFormat::TwoState,
             States::Four => OpacityMicromapFormat::FourState,
         });
-        let promotion = self.promotion.map(|promotion| match promotion {
-            Promotion::Nearest => UnknownStatePromotion::Nearest,
-            Promotion::ForceOpaque => UnknownStatePromotion::ForceOpaque,
-            Promotion::ForceTransparent => UnknownStatePromotion::ForceTransparent,
-        });
-        BakeOptions {
+        self.tuning.apply(BakeOptions {
             level,
             format: format.unwrap_or(options.format),
-            promotion: promotion.unwrap_or(options.promotion),
+            promotion: self.promotion.map_or(options.promotion, Into::into),
             alpha_cutoff: self.cutoff.unwrap_or(options.alpha_cutoff),
             special_indices: options.special_indices && !self.no_special_indices,
             ..options
-        }
+        })
     }
 
-    fn bake_one(
-        &self,
-        name: &str,
-        input: &BakeInput<'_>,
-        options: &BakeOptions,
-    ) -> Result<(BakeOutput, Statistics), CliError> {
+    fn bake_one<'a>(&self, item: Item<'a>) -> Result<Baked<'a>, CliError> {
+        let Item { name, input, options, .. } = &item;
         let since = std::time::Instant::now();
         let bar = Progress::new(name, 0);
         let progress = |at: omm_bake::Progress| bar.set(at.done, at.total);
-        let output = omm_bake::bake(input, options, &progress)
-            .map_err(|source| CliError::Bake { input: format!("{}: {name}", self.input.display()), source })?;
+        let refused = || dry::refused(&self.input, name);
+        let output = omm_bake::bake(input, options, &progress).map_err(refused())?;
         drop(bar);
-        let statistics = Statistics::new(name, input, options, &output, since.elapsed());
-        Ok((output, statistics))
+        let time = since.elapsed();
+        let (index_type, indices) = output.index_buffer(self.tuning.index_type.types()).map_err(refused())?;
+        let coverage = omm_bake::coverage(input, &output);
+        let statistics = Statistics::new(name, input, options, &output, &coverage, index_type, time);
+        Ok(Baked { item, output, indices, coverage, statistics })
     }
 }
 
 /// Adds the three files of data: the micromap's array, its triangles, and the index buffer.
-pub(crate) fn write_data(name: &str, output: &BakeOutput, files: &mut OutputSet) -> Result<(), CliError> {
-    let BakeOutput { array, triangles, indices, .. } = output;
+pub(crate) fn write_data(
+    name: &str,
+    output: &BakeOutput,
+    indices: &[u8],
+    files: &mut OutputSet,
+) -> Result<(), CliError> {
+    let BakeOutput { array, triangles, .. } = output;
     files.add(format!("{name}.array.bin"), |out| out.write_all(array))?;
     files.add(format!("{name}.desc.bin"), |out| {
         triangles.iter().try_for_each(|&triangle| out.write_all(&omm_layout::triangle::encode(&triangle.into())))
     })?;
-    files.add(format!("{name}.index.bin"), |out| {
-        indices.iter().try_for_each(|index| out.write_all(&index.to_le_bytes()))
-    })
+    files.add(format!("{name}.index.bin"), |out| out.write_all(indices))
 }
 
 fn print(results: &[Statistics], place: &Path, out: &mut dyn Write) -> std::io::Result<()> {
@@ -318,8 +326,10 @@ const HELP: &str = "\
 Results, for a job its name, for a glTF primitive MESH_primN:
   NAME.array.bin     the micromap's data
   NAME.desc.bin      for each micromap triangle: u32 offset, u16 level, u16 format
-  NAME.index.bin     for each triangle of the mesh: i32, a micromap triangle or a special index
+  NAME.index.bin     for each triangle of the mesh: a micromap triangle or, as -1 to -4, a special
+                     index; 32 bits unless --index-type says otherwise
   NAME.stats.json    what was counted
+  NAME.coverage.json which part of each triangle is known, and its texels
   NAME.overlay.png   the picture
   textureN.atlas.png all primitives that read the texture, where there are several
 With -o they go into one bundle instead, with the digests of the files that were read.
@@ -335,6 +345,8 @@ Examples:
   omm bake model.glb --out baked --level 5 --state 2
   omm bake leaf.job.json --out baked --format json
   omm bake model.glb -o model.omm
+  omm bake model.glb --dry-run --max-array-bytes 65536
+  omm bake smoke.job.json --out baked --cutoff 0 --greater uo
 
 Exit status:
   0  clean

@@ -66,7 +66,7 @@ struct ArrayArgs {
 
 /// How indices are stored.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Index {
+pub(crate) enum Index {
     Uint8,
     Uint16,
     Uint32,
@@ -275,7 +275,7 @@ fn usage_counts(array: &TriangleArray<'_>) -> Vec<vk::MicromapUsage> {
 }
 
 impl Index {
-    const fn ty(self) -> IndexType {
+    pub(crate) const fn ty(self) -> IndexType {
         match self {
             Self::Uint8 => IndexType::Uint8,
             Self::Uint16 => IndexType::Uint16,

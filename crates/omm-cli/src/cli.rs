@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::{bake, blob, bundle, check, curve, demo, diff, explain, inspect, render, rules, run};
+use crate::{bake, blob, bundle, check, curve, demo, diff, downsample, explain, inspect, render, rules, run};
 
 /// Opacity micromaps: bake them, look into them, follow the bird curve, watch them save any-hit calls.
 #[derive(Debug, Parser)]
@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Render(render::RenderArgs),
     /// Bake opacity micromaps for a glTF file or a job file.
     Bake(bake::BakeArgs),
+    /// Lower the levels of micromaps that are baked.
+    Downsample(downsample::DownsampleArgs),
     /// Follow the bird curve: barycentrics to index and back.
     Curve(curve::CurveArgs),
     /// Look into a serialized acceleration structure.

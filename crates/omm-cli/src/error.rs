@@ -98,6 +98,9 @@ pub(crate) enum CliError {
     /// Results of `bake` cannot go into a bundle.
     #[error("{}: {reason}", path.display())]
     Pack { path: PathBuf, reason: String },
+    /// Elements of a file are none: levels or formats of triangles, or records of micromap triangles.
+    #[error("{}: {reason}", path.display())]
+    Elements { path: PathBuf, reason: String },
     /// Threads cannot be started.
     #[error("cannot start threads: {0}")]
     Threads(rayon::ThreadPoolBuildError),

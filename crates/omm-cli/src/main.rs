@@ -15,8 +15,10 @@ mod cli;
 mod curve;
 mod demo;
 mod diff;
+mod downsample;
 mod error;
 mod explain;
+mod indices;
 mod inspect;
 mod output;
 mod progress;
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args, format),
         Command::Render(args) => render::run(&args, format),
         Command::Bake(args) => bake::run(&args, format),
+        Command::Downsample(args) => downsample::run(&args, format),
         Command::Curve(args) => curve::run(&args, format),
         Command::Inspect(args) => inspect::run(&args, format),
         Command::Check(args) => check::run(&args, format),

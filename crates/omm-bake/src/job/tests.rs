@@ -90,6 +90,72 @@ fn a_scale_makes_levels_dynamic() {
 }
 
 #[test]
+fn other_layouts_are_read() {
+    let folder = Folder::new();
+    folder.write("pitch.bin", &[0, 255, 9, 128, 64]);
+    folder.write("half.bin", &[0x00, 0x3c, 0, 0, 9, 9, 0, 0, 0x00, 0x38, 9, 9, 0, 0x40, 0, 0x80]);
+    folder.write("unorm.bin", &[0xff, 0xff, 0, 0, 0x33, 0x33, 0, 0, 0, 0, 0, 0]);
+    folder.write("tri8.bin", &[0, 1, 2, 2, 1, 0]);
+    folder.write("tri16.bin", &[0, 0, 1, 0, 2, 0]);
+    folder.write("m1.bin", &[7]);
+    let read = |changes: &[(&str, Value)]| {
+        let mut job = job();
+        for (pointer, value) in changes {
+            let (parent, key) = pointer.rsplit_once('/').unwrap();
+            job.pointer_mut(parent).unwrap()[key] = value.clone();
+        }
+        folder
+            .read(&job.to_string())
+            .map_err(|error| error.to_string().replace(&folder.0.path().display().to_string(), ""))
+    };
+    let texture = read(&[("/texture/path", json!("pitch.bin")), ("/texture/row_pitch", json!(3))]).unwrap().texture;
+    assert_eq!([texture.alpha(1, 0), texture.alpha(0, 1)], [Some(1.0), Some(128.0 / 255.0)]);
+    let mips = read(&[("/texture/mips", json!(["m1.bin"]))]).unwrap().texture;
+    assert_eq!((mips.mip_count(), mips.mip(1).and_then(|mip| mip.alpha(0, 0))), (2, Some(7.0 / 255.0)));
+    let halves = [("/uvs", json!("half.bin")), ("/uv_format", json!("float16")), ("/uv_stride", json!(6))];
+    assert_eq!(read(&halves).unwrap().uvs, [[1.0, 0.0], [0.0, 0.5], [2.0, -0.0]]);
+    let unorms = [("/uvs", json!("unorm.bin")), ("/uv_format", json!("unorm16"))];
+    assert_eq!(read(&unorms).unwrap().uvs, [[1.0, 0.0], [0.2, 0.0], [0.0, 0.0]]);
+    let triangles = |file: &str, format: &str| [("/triangles", json!(file)), ("/index_format", json!(format))];
+    assert_eq!(read(&triangles("tri8.bin", "uint8")).unwrap().triangles, [[0, 1, 2], [2, 1, 0]]);
+    assert_eq!(read(&triangles("tri16.bin", "uint16")).unwrap().triangles, [[0, 1, 2]]);
+    let refused = |changes: &[(&str, Value)]| read(changes).unwrap_err();
+    let [uvs, format, _] = halves;
+    assert_eq!(
+        refused(&[uvs, format, ("/uv_stride", json!(3))]),
+        "/x.job.json: uvs: /half.bin: a stride of 3 bytes is less than the 4 bytes of a vertex's texture coordinates"
+    );
+    assert_eq!(
+        refused(&triangles("tri16.bin", "uint32")),
+        "/x.job.json: triangles: /tri16.bin: the file has 6 bytes, which is not a multiple of 12"
+    );
+    assert_eq!(
+        refused(&[("/texture/row_pitch", json!(1))]),
+        "/x.job.json: texture.path: a row pitch of 1 texels is less than the width of 2"
+    );
+    assert_eq!(
+        refused(&[("/texture/format", json!("fp32")), ("/texture/row_pitch", json!(10))]),
+        "/x.job.json: texture.row_pitch: a row pitch of 10 bytes is not a multiple of 4, the bytes of a texel"
+    );
+    assert_eq!(
+        refused(&[("/texture/row_pitch", json!(u64::MAX))]),
+        format!(
+            "/x.job.json: texture.path: the texture data has 4 texels, but its size asks for {} to {}",
+            u64::MAX,
+            u64::MAX
+        )
+    );
+    assert_eq!(
+        refused(&[("/texture/mips", json!(["t.bin"]))]),
+        "/x.job.json: texture.mips: /t.bin: the file has 4 bytes, but 1 are needed"
+    );
+    assert_eq!(
+        refused(&[("/texture/mips", json!(["m1.bin", "m1.bin"]))]),
+        "/x.job.json: texture.mips: mip 2 cannot be: the one before has a single texel, or brings mips of its own"
+    );
+}
+
+#[test]
 fn float_textures() {
     let folder = Folder::new();
     folder.write("t.bin", &floats(&[0.0, 1.5, -2.0, 0.25]));

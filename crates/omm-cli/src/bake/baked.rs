@@ -2,30 +2,34 @@
 
 use std::collections::BTreeMap;
 use std::io::Write;
+use std::ops::Deref;
 use std::path::Path;
 
 use omm_bake::gltf::extras::PrimitiveOutput;
 use omm_bake::gltf::{self, GltfKind};
 use omm_bake::picture::{self, Layer};
-use omm_bake::{BakeInput, BakeOptions, BakeOutput};
+use omm_bake::{BakeOutput, Coverage};
 
-use super::report;
 use super::statistics::Statistics;
+use super::{Item, report};
 use crate::error::CliError;
 use crate::output::OutputSet;
 
 /// One thing that was baked.
 pub(super) struct Baked<'a> {
-    /// The name of the mesh in the file, which may be anything.
-    pub(super) label: Option<&'a str>,
-    /// Number of the mesh in the glTF file and of the primitive in the mesh; none for a job.
-    pub(super) place: Option<(usize, usize)>,
-    /// Number of the texture among those of the file.
-    pub(super) texture: usize,
-    pub(super) input: BakeInput<'a>,
-    pub(super) options: BakeOptions,
+    pub(super) item: Item<'a>,
     pub(super) output: BakeOutput,
+    /// The index buffer's bytes, of the type that was asked for.
+    pub(super) indices: Vec<u8>,
+    pub(super) coverage: Coverage,
     pub(super) statistics: Statistics,
+}
+
+impl<'a> Deref for Baked<'a> {
+    type Target = Item<'a>;
+    fn deref(&self) -> &Item<'a> {
+        &self.item
+    }
 }
 
 /// What was baked, by the number of the texture that it reads.

@@ -11,6 +11,7 @@ use omm_bake::picture::{self, Layer};
 use omm_model::opacity::OpacityState;
 use sha2::{Digest, Sha256};
 
+use super::Item;
 use super::baked::{Baked, by_texture};
 use super::statistics::Statistics;
 
@@ -219,7 +220,7 @@ fn viewer(page: &mut String, picture: RgbaImage, caption: &str) -> Result<(), Re
 }
 
 fn primitive(page: &mut String, number: usize, one: &Baked<'_>, pictures: bool) -> Result<(), ReportError> {
-    let Baked { label, input, options, output, statistics, .. } = one;
+    let Baked { item: Item { label, input, options, .. }, output, statistics, .. } = one;
     write!(page, "<section id=\"p{number}\">\n<h2>{}</h2>\n<p class=\"facts\">", Escaped(statistics.name()))?;
     if let Some(label) = label {
         write!(page, "<span>mesh <b>{}</b></span>", Escaped(label))?;

@@ -4,9 +4,12 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::time::Duration;
 
-use omm_bake::{BakeInput, BakeOptions, BakeOutput, BakeStatistics, StateCounts};
+use omm_bake::{BakeInput, BakeOptions, BakeOutput, BakeStatistics, Coverage, StateCounts};
+use omm_layout::index::IndexType;
 use omm_model::usage::MicromapUsage;
 use serde::Serialize;
+
+use crate::indices;
 
 /// The contents of `NAME.stats.json`.
 #[derive(Debug, Serialize)]
@@ -32,12 +35,22 @@ pub(crate) struct Statistics {
     index_histogram: Vec<Usage>,
     /// The part of `triangle_states` that needs no shader, 0 to 1.
     known_fraction: f64,
+    /// The part of the mesh's area in the texture that needs no shader, 0 to 1.
+    area_known_fraction: f64,
+    /// Triangles that were rejected because too little of them was known.
+    rejected: u64,
+    /// Triangles whose level was lowered for the byte budget, or that were given up.
+    lowered: u64,
+    /// Micromap triangles that became one with another that was almost the same.
+    near_merged: u64,
     /// Triangles whose texture coordinates are not finite.
     not_finite: u64,
     /// Triangles whose texture coordinates are too far out to name texels.
     out_of_range: u64,
     /// Microtriangles left unknown because deciding would have taken too long.
     undecided: u64,
+    /// How indices are stored: `uint8`, `uint16` or `uint32`.
+    index_type: &'static str,
     bytes: Bytes,
     /// Time that baking took.
     seconds: f64,
@@ -45,7 +58,7 @@ pub(crate) struct Statistics {
 
 /// So many triangles have this level and format.
 #[derive(Debug, Serialize)]
-struct Usage {
+pub(super) struct Usage {
     level: u32,
     /// 1: 2-state, 2: 4-state.
     format: u16,
@@ -67,15 +80,27 @@ impl From<&MicromapUsage> for Usage {
     }
 }
 
+impl Usage {
+    pub(super) fn level(&self) -> u32 {
+        self.level
+    }
+
+    pub(super) fn count(&self) -> u32 {
+        self.count
+    }
+}
+
 impl Statistics {
     pub(super) fn new(
         name: &str,
         input: &BakeInput<'_>,
         options: &BakeOptions,
         output: &BakeOutput,
+        coverage: &Coverage,
+        index_type: IndexType,
         time: Duration,
     ) -> Self {
-        let BakeOutput { array, triangles, indices, usage_counts, index_usage_counts, statistics } = output;
+        let BakeOutput { array, triangles, indices: entries, usage_counts, index_usage_counts, statistics } = output;
         let &BakeStatistics {
             triangles: mesh_triangles,
             baked_triangles: _,
@@ -87,10 +112,13 @@ impl Statistics {
             not_finite,
             out_of_range,
             undecided,
+            rejected,
+            lowered,
+            near_merged,
             array_bytes: _,
         } = statistics;
         let [array, desc, index] =
-            [array.len(), triangles.len() * omm_layout::triangle::SIZE, indices.len() * size_of::<i32>()]
+            [array.len(), triangles.len() * omm_layout::triangle::SIZE, entries.len() * index_type.size() as usize]
                 .map(|n| n as u64);
         Self {
             name: name.to_owned(),
@@ -104,9 +132,14 @@ impl Statistics {
             histogram: usage_counts.iter().map(Usage::from).collect(),
             index_histogram: index_usage_counts.iter().map(Usage::from).collect(),
             known_fraction,
+            area_known_fraction: coverage.area_known_fraction,
+            rejected,
+            lowered,
+            near_merged,
             not_finite,
             out_of_range,
             undecided,
+            index_type: indices::name(index_type),
             bytes: Bytes { array, desc, index, total: array + desc + index },
             seconds: time.as_secs_f64(),
         }

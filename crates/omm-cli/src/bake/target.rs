@@ -46,36 +46,39 @@ impl Target {
         baked::write_atlases(baked, files)
     }
 
-    /// Adds what was baked, under the name that its statistics have.
-    pub(super) fn add(&mut self, output: BakeOutput, statistics: &Statistics) -> Result<(), CliError> {
+    /// Adds what was baked, under the name that its statistics have, and answers with these. A bundle takes no coverage.
+    pub(super) fn add(&mut self, baked: Baked<'_>, with_coverage: bool) -> Result<Statistics, CliError> {
+        let Baked { output, indices, coverage, statistics, .. } = baked;
         let name = statistics.name();
         match self {
             Self::Folder { files, .. } => {
-                write_data(name, &output, files)?;
-                files.add_json(&format!("{name}.stats.json"), statistics)
+                write_data(name, &output, &indices, files)?;
+                if with_coverage {
+                    files.add_json(&format!("{name}.coverage.json"), &coverage)?;
+                }
+                files.add_json(&format!("{name}.stats.json"), &statistics)?;
             }
             Self::Bundle { path, sources, data, .. } => {
                 // As text and back, so that numbers are spelt as in NAME.stats.json.
-                let text = serde_json::to_vec(statistics);
+                let text = serde_json::to_vec(&statistics);
                 let value = text.and_then(|text| serde_json::from_slice(&text));
                 let value = value.map_err(|error| CliError::write(path)(error.into()))?;
-                let (settings, statistics) = settings_and_statistics(value);
-                let BakeOutput { array, triangles, indices, usage_counts, index_usage_counts, statistics: _ } = output;
-                let (name, sources) = (name.to_owned(), sources.clone());
+                let (settings, numbers) = settings_and_statistics(value);
+                let BakeOutput { array, triangles, indices, usage_counts, index_usage_counts, .. } = output;
                 data.micromaps.push(MicromapData {
-                    name,
+                    name: name.to_owned(),
                     array,
                     triangles,
                     indices,
                     usage_counts,
                     index_usage_counts,
                     settings,
-                    sources,
-                    statistics,
+                    sources: sources.clone(),
+                    statistics: numbers,
                 });
-                Ok(())
             }
         }
+        Ok(statistics)
     }
 
     /// Lets everything appear, and says where.

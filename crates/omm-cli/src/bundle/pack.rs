@@ -5,6 +5,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use omm_layout::index::IndexType;
 use omm_model::triangle::MicromapTriangle;
 use omm_model::usage::histogram;
 use omm_serialize::bundle::{Bundle, BundleData, Checksums, MicromapData, Source};
@@ -14,6 +15,7 @@ use sha2::{Digest, Sha256};
 
 use crate::cli::Format;
 use crate::error::{CliError, Outcome};
+use crate::indices;
 use crate::output::{self, OutputSet};
 
 /// Arguments of `omm bundle pack`.
@@ -112,13 +114,7 @@ fn micromap(folder: &Path, name: String, sources: &[Source]) -> Result<MicromapD
         triangles.push(triangle.map_err(|error| bad(&desc, format!("record {index}: {error}")))?);
     }
 
-    let index = path("index.bin");
-    let bytes = output::read(&index)?;
-    let (records, rest) = bytes.as_chunks::<4>();
-    if !rest.is_empty() {
-        return Err(bad(&index, format!("{} bytes are no whole number of indices of 4", bytes.len())));
-    }
-    let indices: Vec<_> = records.iter().map(|record| i32::from_le_bytes(*record)).collect();
+    let indices = indices::read(&path("index.bin"), index_type(&path("stats.json"))?)?;
     let used = indices.iter().filter_map(|&index| triangles.get(usize::try_from(index).ok()?).copied());
 
     let mut described = describe(&path("bundle.json"), &path("stats.json"))?;
@@ -137,6 +133,22 @@ fn micromap(folder: &Path, name: String, sources: &[Source]) -> Result<MicromapD
         sources,
         statistics,
     })
+}
+
+/// How indices are stored, by what a bake counted; as 32 bits if nothing says it.
+fn index_type(stats: &Path) -> Result<IndexType, CliError> {
+    #[derive(Deserialize)]
+    struct Stated {
+        index_type: Option<String>,
+    }
+    if !stats.exists() {
+        return Ok(IndexType::Uint32);
+    }
+    let bad = |reason| CliError::Pack { path: stats.into(), reason };
+    let Stated { index_type } =
+        serde_json::from_slice(&output::read(stats)?).map_err(|error| bad(error.to_string()))?;
+    let Some(stated) = index_type else { return Ok(IndexType::Uint32) };
+    indices::named(&stated).ok_or_else(|| bad(format!("index_type {stated} is none that indices can have")))
 }
 
 /// Settings, statistics and sources: from an unpacked bundle, or from the statistics of a bake, or nothing.
