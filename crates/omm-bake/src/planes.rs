@@ -29,12 +29,15 @@ impl Planes {
         if word < self.words_per_row { self.words.get(at).copied().unwrap_or(0) } else { 0 }
     }
 
-    /// 64 texels of row `row` from column `column` on.
-    pub(crate) fn bits(&self, row: u32, column: u32) -> u64 {
+    /// For each of `lines`, a row of the texture from `row` on, 64 texels from column `column` on.
+    pub(crate) fn load<'a>(&self, row: u32, column: u32, lines: impl Iterator<Item = &'a mut u64>) {
         let (word, shift) = ((column / WORD) as usize, column % WORD);
-        let low = self.word(row, word) >> shift;
-        // A shift by 64 in two steps, as one has no meaning.
-        low | (self.word(row, word + 1) << 1) << (WORD - 1 - shift)
+        let rows = self.words.chunks_exact(self.words_per_row).skip(row as usize);
+        for (line, words) in lines.zip(rows) {
+            let at = |word: usize| words.get(word).copied().unwrap_or(0);
+            // A shift by 64 in two steps, as one has no meaning.
+            *line = at(word) >> shift | (at(word + 1) << 1) << (WORD - 1 - shift);
+        }
     }
 
     /// Whether texel (`column`, `row`) is above the cutoff.
@@ -88,9 +91,11 @@ mod tests {
                 for column in 0..width {
                     let above = surface.is_above(column.into(), row.into());
                     assert_eq!(planes.bit(row, column), above);
-                    assert_eq!(planes.bits(row, column) & 1 == 1, above);
+                    let mut bits = 0;
+                    planes.load(row, column, std::iter::once(&mut bits));
+                    assert_eq!(bits & 1 == 1, above);
                     let far = (column + 63 < width).then(|| surface.is_above(i64::from(column) + 63, row.into()));
-                    assert_eq!(planes.bits(row, column) >> 63 == 1, far.unwrap_or(false));
+                    assert_eq!(bits >> 63 == 1, far.unwrap_or(false));
                     for right in [column, (column + 2).min(width - 1), (column + 70).min(width - 1)] {
                         let side =
                             surface.side(column.into()..=right.into(), row.into()..=(row + 1).min(height - 1).into());

@@ -208,6 +208,32 @@ impl Texture {
         }
     }
 
+    /// The stored values of the texels from (`x`, `y`) on, less `threshold` and times `scale`, rounded; `false` if the data ends
+    /// before the last. Beyond the end of the row is whatever comes next.
+    #[inline]
+    pub(crate) fn differences<const N: usize>(
+        &self,
+        x: u32,
+        y: u32,
+        threshold: f64,
+        scale: f64,
+        differences: &mut [f32; N],
+    ) -> bool {
+        let at = y as usize * self.row_pitch + x as usize;
+        match &self.texels {
+            Texels::Unorm8(texels) => {
+                let Some(texels) = texels.get(at..).and_then(<[u8]>::first_chunk::<N>) else { return false };
+                let (threshold, scale) = (threshold as f32, scale as f32);
+                *differences = texels.map(|texel| (f32::from(texel) - threshold) * scale);
+            }
+            Texels::Fp32(texels) => {
+                let Some(texels) = texels.get(at..).and_then(<[f32]>::first_chunk::<N>) else { return false };
+                *differences = texels.map(|texel| ((f64::from(texel) - threshold) * scale) as f32);
+            }
+        }
+        true
+    }
+
     /// The stored value of texel (`x`, `y`), exactly. The caller has proved `x < width` and `y < height`.
     pub(crate) fn stored(&self, x: u32, y: u32) -> f64 {
         let at = y as usize * self.row_pitch + x as usize;

@@ -26,12 +26,13 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub(super) fn new(from: f64, to: f64) -> Self {
+    /// From `from` to `to`; `inverse` is 1 / (`to` - `from`), and not looked at unless the ends are in different cells.
+    #[inline]
+    pub(super) fn new(from: f64, to: f64, inverse: f64) -> Self {
         let (cell, last) = (from as u32, to as u32);
         let mut walk = Self {
             from,
-            // Not looked at unless the ends are in different cells, and so not equal.
-            inverse: 1.0 / (to - from),
+            inverse,
             cell,
             left: cell.abs_diff(last),
             up: last > cell,
@@ -123,17 +124,17 @@ mod tests {
 
     #[test]
     fn cells_on_the_way() {
-        let mut walk = Walk::new(2.25, 4.5);
+        let mut walk = Walk::new(2.25, 4.5, 1.0 / 2.25);
         assert_eq!((walk.cell, walk.left), (2, 2));
         assert!((walk.t - 1.0 / 3.0).abs() < 1e-12);
         walk.step();
         assert!((walk.t - 7.0 / 9.0).abs() < 1e-12);
         walk.step();
         assert_eq!((walk.cell, walk.left, walk.t), (4, 0, f64::INFINITY));
-        let mut back = Walk::new(3.0, 2.5);
+        let mut back = Walk::new(3.0, 2.5, -2.0);
         assert_eq!((back.cell, back.left, back.t), (3, 1, 0.0));
         back.step();
         assert_eq!((back.cell, back.left), (2, 0));
-        assert_eq!(Walk::new(1.5, 1.5).t, f64::INFINITY);
+        assert_eq!(Walk::new(1.5, 1.5, f64::INFINITY).t, f64::INFINITY);
     }
 }

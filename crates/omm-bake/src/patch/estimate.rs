@@ -1,0 +1,92 @@
+//! Which half of a mixed microtriangle is larger, by the samples of [`promotion`](crate::promotion), 16 at a time.
+//!
+//! # Why the answer is that of `f64`
+//!
+//! Samples are the centroids of [`SAMPLES`], at fixed-point coordinates: off by less than 2^-13 texel, as boxes are (see
+//! [`Patch`](super::Patch)), and by 2^-20 for their own rounding. Values are taken less the cutoff and divided by the
+//! surface's *reach*, so all are within -1..=1, the surface is continuous, and it changes by no more than 2 for a texel along an
+//! axis: a value is off by less than 2^-11 + 2^-18 for its place. In `f32`, of which no number here exceeds 4, its texels and the
+//! polynomial make some ten roundings of at most 2^-22 each. Together that is less than 2^-10. The same samples in `f64` are off by
+//! far less than what is left. So a value further from 0 than [`MARGIN`] = 2^-10 has the sign that `f64` finds, and if one is not
+//! further, `f64` is asked.
+
+use super::grid::{Cells, FRACTION, Spot};
+use crate::promotion::SAMPLES;
+use crate::surface::Surface;
+use crate::window::Window;
+
+/// Values further from 0 have a certain sign.
+const MARGIN: f32 = 1.0 / 1024.0;
+/// Columns and rows of texels around a microtriangle, at most.
+pub(crate) const BLOCK: usize = 8;
+
+/// The 16 samples of a microtriangle of each half, in fixed-point coordinates from its anchor.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Samples {
+    x: [[i32; 16]; 2],
+    y: [[i32; 16]; 2],
+}
+
+impl Samples {
+    /// Takes the steps of a grid.
+    pub(super) fn set(&mut self, steps: [[i64; 2]; 2]) {
+        for (axis, halves) in [&mut self.x, &mut self.y].into_iter().enumerate() {
+            let [a, b] = [steps[0][axis], steps[1][axis]];
+            let [lower, upper] = halves;
+            for ((lower, upper), weights) in lower.iter_mut().zip(upper).zip(SAMPLES) {
+                let [p, q] = weights.map(|weight| weight as i64);
+                // A step is at most 64 texels.
+                *lower = ((a * p + b * q) / 12) as i32;
+                // The other half is the first turned round the middle of both.
+                *upper = (a + b) as i32 - *lower;
+            }
+        }
+    }
+
+    /// Whether at least half of the samples of `spot`, which touches `cells`, are opaque; `None` if rounding decides, or if the
+    /// microtriangle is large.
+    pub(super) fn mostly_opaque(
+        &self,
+        surface: &Surface<'_>,
+        window: &Window,
+        spot: Spot,
+        cells: Cells,
+    ) -> Option<bool> {
+        let (columns, rows) = (cells.right - cells.left + 2, cells.bottom - cells.top + 2);
+        if columns.max(rows) > BLOCK as u32 {
+            return None;
+        }
+        let mut block = [[0.0; BLOCK]; BLOCK + 2];
+        window.differences(surface, [cells.left, cells.top], [columns, rows], &mut block);
+        let texels = block.as_flattened();
+
+        let [x, y] = spot.coordinates();
+        let (x, y) = (x - (cells.left << FRACTION) as i32, y - (cells.top << FRACTION) as i32);
+        let (xs, ys) = (self.x[spot.half()].map(|sample| x + sample), self.y[spot.half()].map(|sample| y + sample));
+        let mut values = [[0.0; 16]; 4];
+        for k in 0..16 {
+            // The last cell of a block of texels has no more than BLOCK - 2 before it.
+            let at = ((ys[k] >> FRACTION) as usize * BLOCK + (xs[k] >> FRACTION) as usize) % (BLOCK * BLOCK);
+            values[0][k] = texels[at];
+            values[1][k] = texels[at + 1];
+            values[2][k] = texels[at + BLOCK];
+            values[3][k] = texels[at + BLOCK + 1];
+        }
+        let [mut above, mut below] = [0; 2];
+        for k in 0..16 {
+            let [x, y] = [xs[k], ys[k]].map(|coordinate| fraction(coordinate));
+            let [d00, d10, d01, d11] = [values[0][k], values[1][k], values[2][k], values[3][k]];
+            let (lower, upper) = (d00 + x * (d10 - d00), d01 + x * (d11 - d01));
+            let value: f32 = lower + y * (upper - lower);
+            above += i32::from(value > MARGIN);
+            below += i32::from(value < -MARGIN);
+        }
+        (above + below == 16).then_some(above >= 8)
+    }
+}
+
+/// The position within a cell.
+fn fraction(coordinate: i32) -> f32 {
+    let unit = 1_i32 << FRACTION;
+    (coordinate & (unit - 1)) as f32 * (1.0 / unit as f32)
+}
