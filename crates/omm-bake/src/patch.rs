@@ -27,9 +27,13 @@
 //! **Cells of one side.** If no texel and no border is closer to the cutoff than that, a value computed with the polynomial of a cell
 //! whose texels are on one side is on that side: it need not be computed.
 //!
-//! **Edges.** An edge is followed from t = 0 to t = 1 through the cells between whose bounds its ends are. The t of a
-//! crossing is off by as much as moves the point by less than η, so each piece is closer than 4η to its cell, and the pieces
-//! cover the edge. On a piece with values a and b at its ends the surface is a (1 - s) + b s - G s (1 - s), as in
+//! **Boxes in cells.** A bilinear surface takes its extremes over a rectangle at its corners. If they are on one side with certainty
+//! where the box of a microtriangle overlaps each cell that has texels of the other side, all of the box is on that side. The
+//! corners are exact, and so is the cell: only the value itself is rounded.
+//!
+//! **Edges.** An edge is cut where it crosses the bounds of the cells of its box, from t = 0 to t = 1: two cells that share a bound
+//! share the cut, so the parts cover the edge. The t of a cut is off by as much as moves the point by less than η, so each part is
+//! closer than 4η to its cell. On a part with values a and b at its ends the surface is a (1 - s) + b s - G s (1 - s), as in
 //! `filter`: no further towards the other side than the nearer end less max(G, 0)/4, and exactly as far as its turning point.
 //!
 //! **Inside.** Texel centres are integers. Orientations of points less than 64 apart, of coordinates off by η, are off by less than
@@ -45,10 +49,10 @@ mod grid;
 
 use omm_model::curve::Corner;
 
-use self::cell::{Cell, Walk, greater, lesser};
+use self::cell::{Cell, Change, lesser};
 use self::estimate::Samples;
-use self::grid::{Cells, EDGES, Grid, STRIDE};
 pub(crate) use self::grid::Spot;
+use self::grid::{Cells, EDGES, Grid, STRIDE};
 use crate::classify::{Classification, Node};
 use crate::planes::Planes;
 use crate::sampler::Filter;
@@ -84,9 +88,9 @@ impl Steps {
         self.origin + (a * self.a + b * self.b)
     }
 
-    /// By how much it changes in each of the directions of an edge, and one divided by that.
-    fn directions(self) -> [[f64; 2]; 3] {
-        [self.a, self.b, self.b - self.a].map(|change| [change, 1.0 / change])
+    /// By how much it changes in each of the directions of an edge.
+    fn directions(self) -> [Change; 3] {
+        [self.a, self.b, self.b - self.a].map(Change::new)
     }
 }
 
@@ -102,7 +106,7 @@ pub(crate) struct Patch {
     x: Steps,
     y: Steps,
     /// Changes of x and y along the edges of microtriangles.
-    directions: [[[f64; 2]; 3]; 2],
+    directions: [[Change; 3]; 2],
     /// Values further from the cutoff have a certain sign.
     margin: f64,
     /// Orientations further from 0 have a certain sign.
@@ -127,13 +131,13 @@ impl Patch {
             linear: false,
             x: Steps::default(),
             y: Steps::default(),
-            directions: [[[0.0; 2]; 3]; 2],
+            directions: [[Change::default(); 3]; 2],
             margin: 0.0,
             orient_margin: 0.0,
             threshold: 0.0,
             clear: false,
             origin: Corner { u: 0, v: 0 },
-            seen: Vec::new(),
+            seen: vec![0; (STRIDE * (MAX_SEGMENTS + 1)) as usize],
         }
     }
 
@@ -172,8 +176,7 @@ impl Patch {
             self.directions = [self.x.directions(), self.y.directions()];
             self.samples.set(self.grid.steps);
         }
-        self.seen.clear();
-        self.seen.resize((STRIDE * (segments + 1)) as usize, 0);
+        self.seen.iter_mut().take((STRIDE * (segments + 1)) as usize).for_each(|seen| *seen = 0);
         let local = node.weights.map(|corner| [corner.u - self.origin.u, corner.v - self.origin.v]);
         Some(Grid::root(self.x.origin, self.y.origin, local, segments))
     }
@@ -200,32 +203,55 @@ impl Patch {
         if !self.linear {
             return None;
         }
-        let corners = [[1, STRIDE, 0], [1, STRIDE, STRIDE + 1]][spot.half()];
-        let sides = corners.map(|corner| self.side(surface, spot.at + corner));
-        if sides.contains(&ABOVE) && sides.contains(&BELOW) {
-            return Some(Classification::Mixed);
-        }
-        if sides.contains(&UNSURE) {
+        let own = spot.at + [0, STRIDE + 1][spot.half()];
+        let (p, q, r) =
+            (self.side(surface, spot.at + 1), self.side(surface, spot.at + STRIDE), self.side(surface, own));
+        if p == UNSURE || q == UNSURE || r == UNSURE {
             return None;
         }
-        let above = sides[0] == ABOVE;
+        if p != q || q != r {
+            return Some(Classification::Mixed);
+        }
+        let above = p == ABOVE;
+        let one_sided = Some(if above { Classification::Opaque } else { Classification::Transparent });
+        if self.clear && self.box_is_one_sided(surface, spot, above) {
+            return one_sided;
+        }
         let mut unsure = false;
-        for edge in 0..3 {
-            let Cells { left, right, top, bottom } = self.grid.edge_cells(spot, edge);
-            if !self.window.has(!above, left, right + 1, top, bottom + 1) {
+        for (edge, ([a, b], direction)) in EDGES[spot.half()].into_iter().enumerate() {
+            let cells = self.grid.edge_cells(spot, edge);
+            if !self.window.has(!above, cells.left, cells.right + 1, cells.top, cells.bottom + 1) {
                 continue;
             }
-            let ([a, b], direction) = EDGES[spot.half()][edge];
-            match self.edge(surface, spot.at + a + b * STRIDE, direction, above) {
+            match self.edge(surface, spot.at + a + b * STRIDE, direction, cells, above) {
                 TWO_SIDED => return Some(Classification::Mixed),
                 kind => unsure |= kind == UNSURE,
             }
         }
         match self.contains_other(spot, above) {
             Some(true) => Some(Classification::Mixed),
-            Some(false) if !unsure => Some(if above { Classification::Opaque } else { Classification::Transparent }),
+            Some(false) if !unsure => one_sided,
             _ => None,
         }
+    }
+
+    /// Whether all of a microtriangle's box is `above` or not, by the cells that have texels of the other side.
+    fn box_is_one_sided(&self, surface: &Surface<'_>, spot: Spot, above: bool) -> bool {
+        let Cells { left, right, top, bottom } = self.grid.cells(spot, 0);
+        let [xs, ys] = self.grid.bounds(spot);
+        let towards = if above { 1.0 } else { -1.0 };
+        for row in top..=bottom {
+            let mut columns = self.window.cells_of(!above, above, left, right, row);
+            while columns != 0 {
+                let column = columns.trailing_zeros();
+                columns &= columns - 1;
+                let cell = Cell::new(&self.window, surface, column, row, self.threshold);
+                if cell.least_within(grid::within(xs, column), grid::within(ys, row), towards) <= self.margin {
+                    return false;
+                }
+            }
+        }
+        true
     }
 
     /// Where a point of the grid is.
@@ -266,52 +292,46 @@ impl Patch {
     }
 
     /// Whether the edge from a point of the grid in one of three directions, whose ends are `above` or not, has points on the other
-    /// side.
-    fn edge(&mut self, surface: &Surface<'_>, at: u32, direction: usize, above: bool) -> u8 {
+    /// side. It touches no other than `cells`.
+    fn edge(&mut self, surface: &Surface<'_>, at: u32, direction: usize, cells: Cells, above: bool) -> u8 {
         let shift = 2 * direction + 2;
         let seen = self.seen.get(at as usize).map_or(UNSEEN, |seen| seen >> shift & 3);
         if seen != UNSEEN {
             return seen;
         }
-        let kind = self.follow(surface, self.point(at), direction, above);
+        let kind = self.edge_kind(surface, self.point(at), direction, cells, above);
         if let Some(seen) = self.seen.get_mut(at as usize) {
             *seen |= kind << shift;
         }
         kind
     }
 
-    /// Follows an edge through its cells.
-    fn follow(&self, surface: &Surface<'_>, (x0, y0): (f64, f64), direction: usize, above: bool) -> u8 {
-        let [[dx, inverse_x], [dy, inverse_y]] = [self.directions[0][direction], self.directions[1][direction]];
+    /// The same by the parts of the edge in those cells that can have such points.
+    fn edge_kind(&self, surface: &Surface<'_>, (x, y): (f64, f64), direction: usize, cells: Cells, above: bool) -> u8 {
+        let (along_x, along_y) = (self.directions[0][direction], self.directions[1][direction]);
         let towards = if above { 1.0 } else { -1.0 };
-        let mut x = Walk::new(x0, x0 + dx, inverse_x);
-        let mut y = Walk::new(y0, y0 + dy, inverse_y);
-        let (mut t, mut from) = (0.0, (x0, y0));
         let mut unsure = false;
-        loop {
-            let by_x = x.t <= y.t;
-            let next = lesser(greater(lesser(x.t, y.t), t), 1.0);
-            let to = (x0 + next * dx, y0 + next * dy);
-            let sides = self.window.cell_sides(x.cell, y.cell);
-            let has_other = if above { sides.1 } else { sides.0 };
-            if has_other || !self.clear {
-                let cell = Cell::new(&self.window, surface, x.cell, y.cell, self.threshold);
-                let least = cell.least(from, to, towards, self.margin);
+        for row in cells.top..=cells.bottom {
+            let in_row = along_y.part(y, row, [0.0, 1.0]);
+            let mut columns =
+                self.window.cells_of(!above || !self.clear, above || !self.clear, cells.left, cells.right, row);
+            while columns != 0 {
+                let column = columns.trailing_zeros();
+                columns &= columns - 1;
+                let [from, to] = along_x.part(x, column, in_row);
+                if from > to {
+                    continue;
+                }
+                let at = |t: f64| (x + t * along_x.by, y + t * along_y.by);
+                let cell = Cell::new(&self.window, surface, column, row, self.threshold);
+                let least = cell.least(at(from), at(to), towards, self.margin);
                 if least < -self.margin {
                     return TWO_SIDED;
                 }
                 unsure |= least <= self.margin;
             }
-            if x.left == 0 && y.left == 0 {
-                return if unsure { UNSURE } else { ONE_SIDED };
-            }
-            if by_x {
-                x.step();
-            } else {
-                y.step();
-            }
-            (t, from) = (next, to);
         }
+        if unsure { UNSURE } else { ONE_SIDED }
     }
 
     /// Whether the microtriangle contains a texel centre that is on the other side; `None` if rounding decides.
@@ -343,7 +363,7 @@ impl Patch {
     }
 
     /// Whether at least half of the samples of a microtriangle are opaque, if that is certain.
-    pub(crate) fn mostly_opaque(&self, surface: &Surface<'_>, spot: Spot) -> Option<bool> {
+    pub(crate) fn mostly_opaque(&mut self, surface: &Surface<'_>, spot: Spot) -> Option<bool> {
         if !self.linear {
             return None;
         }

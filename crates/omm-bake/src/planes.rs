@@ -16,10 +16,7 @@ impl Planes {
     pub(crate) fn new(surface: &Surface<'_>) -> Self {
         let texture = surface.texture();
         let words_per_row = texture.width().div_ceil(WORD) as usize;
-        let mut words = Vec::with_capacity(words_per_row * texture.height() as usize);
-        for row in 0..texture.height() {
-            texture.above_words(row, surface.threshold(), &mut words);
-        }
+        let words = texture.above(surface.threshold());
         Self { words, words_per_row }
     }
 
@@ -52,18 +49,18 @@ impl Planes {
         let flip = if side { u64::MAX } else { 0 };
         let (first, last) = ((left / WORD) as usize, (right / WORD) as usize);
         let (from_left, to_right) = (u64::MAX << (left % WORD), u64::MAX >> (WORD - 1 - right % WORD));
-        for row in top..=bottom {
-            for word in first..=last {
-                let mut mask = u64::MAX;
-                if word == first {
-                    mask &= from_left;
+        let rows = self.words.chunks_exact(self.words_per_row).skip(top as usize).take((bottom + 1 - top) as usize);
+        for row in rows {
+            let other = match row.get(first..=last) {
+                Some(&[word]) => (word ^ flip) & from_left & to_right,
+                Some(&[start, ref between @ .., end]) => {
+                    let between = between.iter().fold(0, |other, word| other | (word ^ flip));
+                    between | (start ^ flip) & from_left | (end ^ flip) & to_right
                 }
-                if word == last {
-                    mask &= to_right;
-                }
-                if (self.word(row, word) ^ flip) & mask != 0 {
-                    return None;
-                }
+                _ => 0,
+            };
+            if other != 0 {
+                return None;
             }
         }
         Some(side)

@@ -7,8 +7,8 @@ use crate::surface::Surface;
 /// Columns and rows of a window.
 pub(crate) const SIDE: u32 = u64::BITS;
 
-/// Runs of 1, 2, 4 and 8 rows.
-const RUNS: usize = 4;
+/// Runs of 1, 2 and 4 rows.
+const RUNS: usize = 3;
 
 /// For runs of 2^k rows from each row on: columns in which some texel is of one side.
 type Runs = [[u64; SIDE as usize]; RUNS];
@@ -61,10 +61,9 @@ impl Window {
             *below = !above;
         }
         for runs in [&mut self.above, &mut self.below] {
-            let [one, two, four, eight] = runs;
-            join(one, two, 1, height);
-            join(two, four, 2, height);
-            join(four, eight, 4, height);
+            let [one, two, four] = runs;
+            join::<1>(one, two);
+            join::<2>(two, four);
         }
     }
 
@@ -112,6 +111,14 @@ impl Window {
         runs[0][(row % SIDE) as usize] & columns(left, right)
     }
 
+    /// The cells of `left..=right` in row `row` in which some texel is above, if `above`, or some is not, if `below`.
+    #[inline]
+    pub(crate) fn cells_of(&self, above: bool, below: bool, left: u32, right: u32, row: u32) -> u64 {
+        let at = (row % SIDE) as usize;
+        let texels = if above { self.above[1][at] } else { 0 } | if below { self.below[1][at] } else { 0 };
+        (texels | texels >> 1) & columns(left, right)
+    }
+
     /// The stored values at (`x`, `y`), (`x` + 1, `y`), (`x`, `y` + 1) and (`x` + 1, `y` + 1) of the window, all in it.
     #[inline]
     pub(crate) fn values(&self, surface: &Surface<'_>, x: u32, y: u32) -> [f64; 4] {
@@ -137,10 +144,11 @@ impl Window {
     ) {
         let (column, row) = (self.base[0] + i64::from(at[0]), self.base[1] + i64::from(at[1]));
         let (threshold, scale) = (surface.threshold(), 1.0 / surface.reach());
+        let lines = block.iter_mut().take(size[1] as usize);
+        if self.inside && surface.texture().differences(column as u32, row as u32, threshold, scale, lines) {
+            return;
+        }
         for (y, line) in (row..).zip(block).take(size[1] as usize) {
-            if self.inside && surface.texture().differences(column as u32, y as u32, threshold, scale, line) {
-                continue;
-            }
             for (x, difference) in (column..).zip(line).take(size[0] as usize) {
                 *difference = ((surface.value(x, y) - threshold) * scale) as f32;
             }
@@ -154,10 +162,10 @@ fn columns(left: u32, right: u32) -> u64 {
     u64::MAX << (left % SIDE) & u64::MAX >> (SIDE - 1 - right.min(SIDE - 1))
 }
 
-/// Joins the runs of `length` rows in `from` to runs of twice as many; runs that go beyond row `height` are not looked at.
-fn join(from: &[u64; SIDE as usize], to: &mut [u64; SIDE as usize], length: usize, height: usize) {
-    for ((to, first), second) in to.iter_mut().zip(from).zip(from.iter().skip(length)).take(height) {
-        *to = first | second;
+/// Joins the runs of `LENGTH` rows in `from` to runs of twice as many; runs that go beyond the last row are not looked at.
+fn join<const LENGTH: usize>(from: &[u64; SIDE as usize], to: &mut [u64; SIDE as usize]) {
+    for row in 0..SIDE as usize - LENGTH {
+        to[row] = from[row] | from[row + LENGTH];
     }
 }
 

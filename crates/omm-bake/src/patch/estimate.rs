@@ -25,6 +25,8 @@ pub(crate) const BLOCK: usize = 8;
 pub(super) struct Samples {
     x: [[i32; 16]; 2],
     y: [[i32; 16]; 2],
+    /// Texels around a microtriangle, and two rows more for the compiler: indices into them are in range by their bits.
+    block: [[f32; BLOCK]; BLOCK + 2],
 }
 
 impl Samples {
@@ -46,7 +48,7 @@ impl Samples {
     /// Whether at least half of the samples of `spot`, which touches `cells`, are opaque; `None` if rounding decides, or if the
     /// microtriangle is large.
     pub(super) fn mostly_opaque(
-        &self,
+        &mut self,
         surface: &Surface<'_>,
         window: &Window,
         spot: Spot,
@@ -56,33 +58,43 @@ impl Samples {
         if columns.max(rows) > BLOCK as u32 {
             return None;
         }
-        let mut block = [[0.0; BLOCK]; BLOCK + 2];
-        window.differences(surface, [cells.left, cells.top], [columns, rows], &mut block);
-        let texels = block.as_flattened();
-
+        window.differences(surface, [cells.left, cells.top], [columns, rows], &mut self.block);
         let [x, y] = spot.coordinates();
         let (x, y) = (x - (cells.left << FRACTION) as i32, y - (cells.top << FRACTION) as i32);
-        let (xs, ys) = (self.x[spot.half()].map(|sample| x + sample), self.y[spot.half()].map(|sample| y + sample));
-        let mut values = [[0.0; 16]; 4];
-        for k in 0..16 {
-            // The last cell of a block of texels has no more than BLOCK - 2 before it.
-            let at = ((ys[k] >> FRACTION) as usize * BLOCK + (xs[k] >> FRACTION) as usize) % (BLOCK * BLOCK);
-            values[0][k] = texels[at];
-            values[1][k] = texels[at + 1];
-            values[2][k] = texels[at + BLOCK];
-            values[3][k] = texels[at + BLOCK + 1];
-        }
-        let [mut above, mut below] = [0; 2];
-        for k in 0..16 {
-            let [x, y] = [xs[k], ys[k]].map(|coordinate| fraction(coordinate));
-            let [d00, d10, d01, d11] = [values[0][k], values[1][k], values[2][k], values[3][k]];
-            let (lower, upper) = (d00 + x * (d10 - d00), d01 + x * (d11 - d01));
-            let value: f32 = lower + y * (upper - lower);
-            above += i32::from(value > MARGIN);
-            below += i32::from(value < -MARGIN);
-        }
+        let (mut xs, mut ys) = (self.x[spot.half()], self.y[spot.half()]);
+        xs.iter_mut().for_each(|sample| *sample += x);
+        ys.iter_mut().for_each(|sample| *sample += y);
+        let (above, below) = count(&xs, &ys, self.block.as_flattened());
         (above + below == 16).then_some(above >= 8)
     }
+}
+
+/// How many of 16 points are above and below with certainty. Loops over all of them with an index each: so the compiler makes
+/// vectors of them.
+#[allow(clippy::needless_range_loop)]
+fn count(xs: &[i32; 16], ys: &[i32; 16], texels: &[f32]) -> (i32, i32) {
+    let Some(texels) = texels.first_chunk::<{ BLOCK * (BLOCK + 2) }>() else { return (0, 0) };
+    let mut at = [0; 16];
+    for k in 0..16 {
+        // The cell's texel: its row in the upper three bits, its column in the lower.
+        at[k] = ys[k] >> (FRACTION - 3) & 0x38 | xs[k] >> FRACTION & 7;
+    }
+    let (mut lower, mut upper) = ([[0.0; 2]; 16], [[0.0; 2]; 16]);
+    for k in 0..16 {
+        let at = (at[k] & 0x3f) as usize;
+        lower[k] = [texels[at], texels[at + 1]];
+        upper[k] = [texels[at + BLOCK], texels[at + BLOCK + 1]];
+    }
+    let (mut above, mut below) = (0, 0);
+    for k in 0..16 {
+        let (x, y) = (fraction(xs[k]), fraction(ys[k]));
+        let ([d00, d10], [d01, d11]) = (lower[k], upper[k]);
+        let (lower, upper) = (d00 + x * (d10 - d00), d01 + x * (d11 - d01));
+        let value: f32 = lower + y * (upper - lower);
+        above += i32::from(value > MARGIN);
+        below += i32::from(value < -MARGIN);
+    }
+    (above, below)
 }
 
 /// The position within a cell.

@@ -227,11 +227,26 @@ impl Grid {
         self.nodes[size as usize % SIZES][spot.half()].cells(spot.point)
     }
 
+    /// The box of the microtriangle `spot`: the least and the greatest x, and y, in fixed-point coordinates.
+    #[inline]
+    pub(super) fn bounds(&self, spot: Spot) -> [[u32; 2]; 2] {
+        let Extent { least, most } = self.nodes[0][spot.half()];
+        let (least, most) = (spot.point.wrapping_add(least), spot.point.wrapping_add(most));
+        [[least as u32, most as u32], [(least >> 32) as u32, (most >> 32) as u32]]
+    }
+
     /// The cells that an edge of the microtriangle `spot` can touch.
     #[inline]
     pub(super) fn edge_cells(&self, spot: Spot, edge: usize) -> Cells {
         self.edges[spot.half()][edge].cells(spot.point)
     }
+}
+
+/// The part of a range that is in a cell, as positions within it.
+#[inline]
+pub(super) fn within([least, most]: [u32; 2], cell: u32) -> [f64; 2] {
+    let (start, unit) = (cell << FRACTION, 1_u32 << FRACTION);
+    [least.saturating_sub(start), (most - start).min(unit)].map(|position| f64::from(position) / f64::from(unit))
 }
 
 /// The nearest fixed-point number.
@@ -262,7 +277,11 @@ mod tests {
             assert_eq!(root.order, order);
             let mut spots = vec![root];
             for size in (0..4).rev() {
-                spots = spots.iter().flat_map(|&s| (0..4).map(move |which| (s, which))).map(|(s, w)| grid.part(s, size, w)).collect();
+                spots = spots
+                    .iter()
+                    .flat_map(|&s| (0..4).map(move |which| (s, which)))
+                    .map(|(s, w)| grid.part(s, size, w))
+                    .collect();
             }
             for (index, spot) in (0..).zip(spots) {
                 let expected = MicroTriangle::new(level, index).unwrap().corners().map(|corner| {
