@@ -262,33 +262,37 @@ impl Patch {
     }
 
     /// The side at a point of the grid.
-    #[inline]
+    #[inline(always)]
     fn side(&mut self, surface: &Surface<'_>, at: u32) -> u8 {
         let seen = self.seen.get(at as usize).map_or(UNSEEN, |seen| seen & 3);
         if seen != UNSEEN {
             return seen;
         }
-        let side = self.side_of(surface, self.point(at));
+        self.find_side(surface, at)
+    }
+
+    #[inline(never)]
+    fn find_side(&mut self, surface: &Surface<'_>, at: u32) -> u8 {
+        let (x, y) = self.point(at);
+        let (column, row) = (x as u32, y as u32);
+        let side = match self.window.cell_sides(column, row) {
+            (true, false) if self.clear => ABOVE,
+            (false, true) if self.clear => BELOW,
+            _ => {
+                let value = Cell::new(&self.window, surface, column, row, self.threshold).value(x, y);
+                if value > self.margin {
+                    ABOVE
+                } else if value < -self.margin {
+                    BELOW
+                } else {
+                    UNSURE
+                }
+            }
+        };
         if let Some(seen) = self.seen.get_mut(at as usize) {
             *seen |= side;
         }
         side
-    }
-
-    fn side_of(&self, surface: &Surface<'_>, (x, y): (f64, f64)) -> u8 {
-        match self.window.cell_sides(x as u32, y as u32) {
-            (true, false) if self.clear => return ABOVE,
-            (false, true) if self.clear => return BELOW,
-            _ => {}
-        }
-        let value = Cell::new(&self.window, surface, x as u32, y as u32, self.threshold).value(x, y);
-        if value > self.margin {
-            ABOVE
-        } else if value < -self.margin {
-            BELOW
-        } else {
-            UNSURE
-        }
     }
 
     /// Whether the edge from a point of the grid in one of three directions, whose ends are `above` or not, has points on the other

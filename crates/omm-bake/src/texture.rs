@@ -225,35 +225,22 @@ impl Texture {
     /// For each of `lines`, a row from `y` on, the stored values of the texels from column `x` on, less `threshold` and times `scale`,
     /// rounded; `false` if the data ends before the last. Beyond the end of a row is whatever comes next.
     #[inline]
-    pub(crate) fn differences<'a, const N: usize>(
+    pub(crate) fn differences<const N: usize>(
         &self,
-        x: u32,
-        y: u32,
+        [x, y]: [u32; 2],
         threshold: f64,
         scale: f64,
-        lines: impl Iterator<Item = &'a mut [f32; N]>,
+        lines: &mut [[f32; N]],
     ) -> bool {
         let at = y as usize * self.row_pitch + x as usize;
-        let mut lines = (at..).step_by(self.row_pitch).zip(lines);
         match &self.texels {
             Texels::Unorm8(texels) => {
                 let (threshold, scale) = (threshold as f32, scale as f32);
-                lines.all(|(at, line)| {
-                    let texels = texels.get(at..).and_then(<[u8]>::first_chunk::<N>);
-                    texels.is_some_and(|texels| {
-                        line.iter_mut().zip(texels).for_each(|(to, &from)| *to = (f32::from(from) - threshold) * scale);
-                        true
-                    })
-                })
+                fill(texels, at, self.row_pitch, lines, |texel| (f32::from(texel) - threshold) * scale)
             }
-            Texels::Fp32(texels) => lines.all(|(at, line)| {
-                let texels = texels.get(at..).and_then(<[f32]>::first_chunk::<N>);
-                texels.is_some_and(|texels| {
-                    let difference = |from: f32| ((f64::from(from) - threshold) * scale) as f32;
-                    line.iter_mut().zip(texels).for_each(|(to, &from)| *to = difference(from));
-                    true
-                })
-            }),
+            Texels::Fp32(texels) => {
+                fill(texels, at, self.row_pitch, lines, |texel| ((f64::from(texel) - threshold) * scale) as f32)
+            }
         }
     }
 
@@ -275,6 +262,25 @@ fn word(flags: &[u8; 64]) -> u64 {
         word |= (u64::from_le_bytes(flags).wrapping_mul(0x0102_0408_1020_4080) >> 56) << bit;
     }
     word
+}
+
+/// The starts of rows of `row_pitch` texels from `at` on, into `lines`; `false` if there are not as many texels.
+#[inline]
+fn fill<T: Copy, const N: usize>(
+    texels: &[T],
+    at: usize,
+    row_pitch: usize,
+    lines: &mut [[f32; N]],
+    value: impl Fn(T) -> f32,
+) -> bool {
+    let mut rows = texels.get(at..).unwrap_or_default().chunks(row_pitch);
+    for line in lines {
+        let Some(texels) = rows.next().and_then(<[T]>::first_chunk::<N>) else { return false };
+        for (to, &from) in line.iter_mut().zip(texels) {
+            *to = value(from);
+        }
+    }
+    true
 }
 
 /// The texels of each row. The sizes have been checked.

@@ -10,8 +10,8 @@ pub(crate) const SIDE: u32 = u64::BITS;
 /// Runs of 1, 2 and 4 rows.
 const RUNS: usize = 3;
 
-/// For runs of 2^k rows from each row on: columns in which some texel is of one side.
-type Runs = [[u64; SIDE as usize]; RUNS];
+/// For each row, the columns in which some texel of the run of rows that starts there is above, and in which some is not.
+type Run = [[u64; 2]; SIDE as usize];
 
 /// A square of up to 64 x 64 texels, address modes resolved, as bits: whether each is above the cutoff.
 #[derive(Clone, Debug)]
@@ -20,14 +20,12 @@ pub(crate) struct Window {
     base: [i64; 2],
     /// Whether it lies in the texture, where texel coordinates are texels.
     inside: bool,
-    above: Runs,
-    below: Runs,
+    runs: [Run; RUNS],
 }
 
 impl Window {
     pub(crate) fn new() -> Self {
-        let empty = [[0; SIDE as usize]; RUNS];
-        Self { base: [0; 2], inside: false, above: empty, below: empty }
+        Self { base: [0; 2], inside: false, runs: [[[0; 2]; SIDE as usize]; RUNS] }
     }
 
     /// Moves the window to the texels from `base` on, `width` columns and `height` rows, `1..=SIDE` each.
@@ -38,7 +36,8 @@ impl Window {
         let height = height.min(SIDE) as usize;
         self.base = base;
         self.inside = within(columns, base[0], width) && within(rows, base[1], height as u32);
-        let lines = self.above[0].iter_mut().take(height);
+        let [one, two, four] = &mut self.runs;
+        let lines = one.iter_mut().take(height).map(|[above, _]| above);
         if self.inside {
             planes.load(base[1] as u32, base[0] as u32, lines);
         } else {
@@ -57,43 +56,42 @@ impl Window {
                     texels.iter().take(width as usize).rev().fold(0, |bits, texel| bits << 1 | u64::from(bit(texel)));
             }
         }
-        for (below, above) in self.below[0].iter_mut().zip(&self.above[0]).take(height) {
-            *below = !above;
+        for [above, below] in one.iter_mut().take(height) {
+            *below = !*above;
         }
-        for runs in [&mut self.above, &mut self.below] {
-            let [one, two, four] = runs;
-            join::<1>(one, two);
-            join::<2>(two, four);
-        }
+        join::<1>(one, two);
+        join::<2>(two, four);
     }
 
     /// Whether some texel in columns `left..=right` and rows `top..=bottom` of the window is above, and whether some is not.
     #[inline]
     pub(crate) fn sides(&self, left: u32, right: u32, top: u32, bottom: u32) -> (bool, bool) {
         let mask = columns(left, right);
-        (self.columns_of(true, top, bottom) & mask != 0, self.columns_of(false, top, bottom) & mask != 0)
+        let [above, below] = self.columns_of(top, bottom);
+        (above & mask != 0, below & mask != 0)
     }
 
     /// Whether some texel in columns `left..=right` and rows `top..=bottom` is above, or is not.
     #[inline]
     pub(crate) fn has(&self, above: bool, left: u32, right: u32, top: u32, bottom: u32) -> bool {
-        self.columns_of(above, top, bottom) & columns(left, right) != 0
+        self.columns_of(top, bottom)[usize::from(!above)] & columns(left, right) != 0
     }
 
-    /// The columns in which some texel of rows `top..=bottom` is above, or is not.
+    /// The columns in which some texel of rows `top..=bottom` is above, and in which some is not.
     #[inline]
-    fn columns_of(&self, above: bool, top: u32, bottom: u32) -> u64 {
-        let runs = if above { &self.above } else { &self.below };
+    fn columns_of(&self, top: u32, bottom: u32) -> [u64; 2] {
         let height = bottom + 1 - top;
-        let run = height.ilog2().min(RUNS as u32 - 1);
-        let (of_run, length) = (&runs[run as usize % RUNS], 1 << run);
+        // The longest run that is not longer, of 1, 2 or 4 rows.
+        let run = u32::from(height > 1) + u32::from(height > 3);
+        let (of_run, length) = (&self.runs[run as usize], 1 << run);
         let at = |row: u32| of_run[(row % SIDE) as usize];
+        let join = |a: [u64; 2], b: [u64; 2]| [a[0] | b[0], a[1] | b[1]];
         // The last run ends with the last row; it may overlap the first.
-        let mut found = at(top) | at(bottom + 1 - length);
-        let mut row = top + length;
-        while row + length <= bottom {
-            found |= at(row);
-            row += length;
+        let mut found = join(at(top), at(bottom + 1 - length));
+        if height > 8 {
+            for row in (top + length..bottom + 1 - length).step_by(length as usize) {
+                found = join(found, at(row));
+            }
         }
         found
     }
@@ -102,20 +100,20 @@ impl Window {
     #[inline]
     pub(crate) fn cell_sides(&self, x: u32, y: u32) -> (bool, bool) {
         let (at, shift) = ((y % SIDE) as usize, x % SIDE);
-        (self.above[1][at] >> shift & 3 != 0, self.below[1][at] >> shift & 3 != 0)
+        let [above, below] = self.runs[1][at];
+        (above >> shift & 3 != 0, below >> shift & 3 != 0)
     }
 
     /// Columns of `left..=right` in which the texel of row `row` is above, or is not.
     pub(crate) fn row_of(&self, above: bool, left: u32, right: u32, row: u32) -> u64 {
-        let runs = if above { &self.above } else { &self.below };
-        runs[0][(row % SIDE) as usize] & columns(left, right)
+        self.runs[0][(row % SIDE) as usize][usize::from(!above)] & columns(left, right)
     }
 
     /// The cells of `left..=right` in row `row` in which some texel is above, if `above`, or some is not, if `below`.
     #[inline]
     pub(crate) fn cells_of(&self, above: bool, below: bool, left: u32, right: u32, row: u32) -> u64 {
-        let at = (row % SIDE) as usize;
-        let texels = if above { self.above[1][at] } else { 0 } | if below { self.below[1][at] } else { 0 };
+        let [texels_above, texels_below] = self.runs[1][(row % SIDE) as usize];
+        let texels = if above { texels_above } else { 0 } | if below { texels_below } else { 0 };
         (texels | texels >> 1) & columns(left, right)
     }
 
@@ -144,11 +142,11 @@ impl Window {
     ) {
         let (column, row) = (self.base[0] + i64::from(at[0]), self.base[1] + i64::from(at[1]));
         let (threshold, scale) = (surface.threshold(), 1.0 / surface.reach());
-        let lines = block.iter_mut().take(size[1] as usize);
-        if self.inside && surface.texture().differences(column as u32, row as u32, threshold, scale, lines) {
+        let Some(lines) = block.get_mut(..size[1] as usize) else { return };
+        if self.inside && surface.texture().differences([column as u32, row as u32], threshold, scale, lines) {
             return;
         }
-        for (y, line) in (row..).zip(block).take(size[1] as usize) {
+        for (y, line) in (row..).zip(lines) {
             for (x, difference) in (column..).zip(line).take(size[0] as usize) {
                 *difference = ((surface.value(x, y) - threshold) * scale) as f32;
             }
@@ -159,13 +157,14 @@ impl Window {
 /// The bits of columns `left..=right`.
 #[inline]
 fn columns(left: u32, right: u32) -> u64 {
-    u64::MAX << (left % SIDE) & u64::MAX >> (SIDE - 1 - right.min(SIDE - 1))
+    u64::MAX << (left % SIDE) & u64::MAX >> ((SIDE - 1 - right) % SIDE)
 }
 
 /// Joins the runs of `LENGTH` rows in `from` to runs of twice as many; runs that go beyond the last row are not looked at.
-fn join<const LENGTH: usize>(from: &[u64; SIDE as usize], to: &mut [u64; SIDE as usize]) {
+fn join<const LENGTH: usize>(from: &Run, to: &mut Run) {
     for row in 0..SIDE as usize - LENGTH {
-        to[row] = from[row] | from[row + LENGTH];
+        let ([above, below], [next_above, next_below]) = (from[row], from[row + LENGTH]);
+        to[row] = [above | next_above, below | next_below];
     }
 }
 

@@ -61,20 +61,22 @@ impl Samples {
         window.differences(surface, [cells.left, cells.top], [columns, rows], &mut self.block);
         let [x, y] = spot.coordinates();
         let (x, y) = (x - (cells.left << FRACTION) as i32, y - (cells.top << FRACTION) as i32);
-        let (mut xs, mut ys) = (self.x[spot.half()], self.y[spot.half()]);
-        xs.iter_mut().for_each(|sample| *sample += x);
-        ys.iter_mut().for_each(|sample| *sample += y);
-        let (above, below) = count(&xs, &ys, self.block.as_flattened());
+        let (above, below) = count([x, y], &self.x[spot.half()], &self.y[spot.half()], self.block.as_flattened());
         (above + below == 16).then_some(above >= 8)
     }
 }
 
-/// How many of 16 points are above and below with certainty. Loops over all of them with an index each: so the compiler makes
-/// vectors of them.
+/// How many of 16 points, given from (`x`, `y`) on, are above and below with certainty. Loops over all of them with an index each, by
+/// itself: so the compiler makes vectors of them.
 #[allow(clippy::needless_range_loop)]
-fn count(xs: &[i32; 16], ys: &[i32; 16], texels: &[f32]) -> (i32, i32) {
+#[inline(never)]
+fn count([x, y]: [i32; 2], from_x: &[i32; 16], from_y: &[i32; 16], texels: &[f32]) -> (i32, i32) {
     let Some(texels) = texels.first_chunk::<{ BLOCK * (BLOCK + 2) }>() else { return (0, 0) };
-    let mut at = [0; 16];
+    let (mut xs, mut ys, mut at) = ([0; 16], [0; 16], [0; 16]);
+    for k in 0..16 {
+        xs[k] = x + from_x[k];
+        ys[k] = y + from_y[k];
+    }
     for k in 0..16 {
         // The cell's texel: its row in the upper three bits, its column in the lower.
         at[k] = ys[k] >> (FRACTION - 3) & 0x38 | xs[k] >> FRACTION & 7;

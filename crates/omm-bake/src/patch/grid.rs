@@ -175,8 +175,8 @@ pub(super) const EDGES: [[([u32; 2], usize); 3]; 2] =
 pub(super) struct Grid {
     /// By how much a point moves with a and with b.
     pub(super) steps: [[i64; 2]; 2],
-    /// From the anchor of a node of twice the size to those of its parts, by size and anchor of the part.
-    parts: [[u64; 4]; SIZES],
+    /// From the anchor of a node of twice the size to those of its parts, by size and anchor of the part: as point and as index.
+    parts: [[(u64, u32); 4]; SIZES],
     /// Boxes of nodes, by size and half.
     nodes: [[Extent; 2]; SIZES],
     /// Boxes of the edges of a microtriangle, by half.
@@ -194,7 +194,8 @@ impl Grid {
         for (size, (parts, nodes)) in (0_u32..).zip(self.parts.iter_mut().zip(&mut self.nodes)) {
             let sized = steps.map(|step| step.map(|coordinate| coordinate << size));
             let [a, b] = sized.map(pack);
-            *parts = [0, a, b, a.wrapping_add(b)];
+            let ab = a.wrapping_add(b);
+            *parts = [(0, 0), (a, 1 << size), (b, STRIDE << size), (ab, (STRIDE + 1) << size)];
             *nodes = [0, 6].map(|order| Extent::around(sized, ORDERS[order]));
         }
         self.edges = EDGES.map(|edges| {
@@ -216,9 +217,8 @@ impl Grid {
     #[inline]
     pub(super) fn part(&self, spot: Spot, size: u32, which: u32) -> Spot {
         let Part { anchor, order } = PARTS[usize::from(spot.order) % 12][which as usize % 4];
-        let point = spot.point.wrapping_add(self.parts[size as usize % SIZES][usize::from(anchor) % 4]);
-        let (a, b) = (u32::from(anchor & 1), u32::from(anchor >> 1));
-        Spot { point, at: spot.at + ((a + b * STRIDE) << size), order }
+        let (point, at) = self.parts[size as usize % SIZES][usize::from(anchor) % 4];
+        Spot { point: spot.point.wrapping_add(point), at: spot.at + at, order }
     }
 
     /// The cells that `spot` can touch, `size` levels above the finest.
