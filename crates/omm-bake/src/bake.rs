@@ -189,7 +189,7 @@ impl Schedule {
         }
         let mut schedule = Self { plans: Vec::new(), jobs: Vec::new(), not_finite: 0, out_of_range: 0 };
         // The level follows from the coordinates, so these alone tell whether two triangles are the same.
-        let mut jobs_by_uvs = HashMap::<_, u32>::new();
+        let mut jobs_by_uvs = HashMap::<_, u32>::with_capacity(if options.merge { triangles.len() } else { 0 });
         for triangle in 0..triangles.len() {
             let corner_uvs = corner_uvs(input, triangle)?;
             // Both zeros are the same number.

@@ -113,6 +113,21 @@ mod tests {
     }
 
     #[test]
+    fn the_least_value_on_a_rectangle() {
+        let cell = Cell { x: 3.0, y: 7.0, values: [5.0, 1.0, 2.0, -3.0] };
+        for towards in [1.0, -1.0] {
+            for (xs, ys) in [([0.0, 1.0], [0.0, 1.0]), ([0.25, 0.5], [0.5, 0.75]), ([0.5, 0.5], [0.25, 1.0])] {
+                let grid = (0..=16).flat_map(|i| (0..=16).map(move |j| (f64::from(i) / 16.0, f64::from(j) / 16.0)));
+                let at = |(p, q): (f64, f64)| {
+                    cell.value(3.0 + xs[0] + p * (xs[1] - xs[0]), 7.0 + ys[0] + q * (ys[1] - ys[0]))
+                };
+                let expected = grid.map(|place| towards * at(place)).fold(f64::INFINITY, f64::min);
+                assert!((cell.least_within(xs, ys, towards) - expected).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
     fn parts_in_cells() {
         let all = [0.0, 1.0];
         let up = Change::new(2.0);
