@@ -129,11 +129,11 @@ impl Piece<'_> {
             return self.set(classification, node, first, finer);
         }
         if let Some(spot) = patch.load(surface, planes, self.triangle, node, 1 << finer) {
-            return if finer == 0 {
-                self.leaf(patch, spot, first)
-            } else {
-                self.visit_patch(patch, spot, first, finer)
-            };
+            match finer {
+                0 => self.leaf(patch, spot, first),
+                _ => self.visit_patch(patch, spot, first, finer),
+            }
+            return;
         }
         if finer == 0 {
             return self.set(node.scan(surface, self.triangle), node, first, finer);
