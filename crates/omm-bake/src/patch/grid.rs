@@ -162,7 +162,8 @@ impl Extent {
 
 /// Coordinates in one number: sums of such numbers are those of the sums, whatever the signs in between.
 fn pack([x, y]: [i64; 2]) -> u64 {
-    (x + (y << 32)) as u64
+    // Sizes larger than the patch do not fit, and are not looked at.
+    x.wrapping_add(y << 32) as u64
 }
 
 /// The edges of a microtriangle of each half: from where, relative to the anchor, and in which of the directions
