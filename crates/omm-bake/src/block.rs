@@ -7,7 +7,7 @@ use omm_model::opacity::OpacityState;
 use rayon::prelude::*;
 
 use crate::classify::{Classification, Node};
-use crate::patch::{self, Patch};
+use crate::patch::{Patch, Spot};
 use crate::planes::Planes;
 use crate::promotion::{UnknownStatePromotion, mostly_opaque};
 use crate::statistics::StateCounts;
@@ -126,13 +126,17 @@ impl Piece<'_> {
     fn visit(&mut self, node: Node, first: u32, finer: u32, patch: &mut Patch) {
         let BlockBaker { surface, planes, .. } = *self.baker;
         if let Some(classification) = node.uniform(surface, planes, self.triangle) {
-            return self.set(classification, node, first, finer, None);
+            return self.set(classification, node, first, finer);
         }
-        if let Some(corners) = patch.load(surface, planes, self.triangle, node, 1 << finer) {
-            return self.visit_patch(patch, corners, first, finer);
+        if let Some(spot) = patch.load(surface, planes, self.triangle, node, 1 << finer) {
+            match finer {
+                0 => self.leaf(patch, spot, first),
+                _ => self.visit_patch(patch, spot, first, finer),
+            }
+            return;
         }
         if finer == 0 {
-            return self.set(node.scan(surface, self.triangle), node, first, finer, None);
+            return self.set(node.scan(surface, self.triangle), node, first, finer);
         }
         for which in 0..4 {
             let child = Node { weights: part(node.weights, which), ..node };
@@ -140,39 +144,45 @@ impl Piece<'_> {
         }
     }
 
-    /// The same within a patch.
-    fn visit_patch(&mut self, patch: &mut Patch, corners: patch::Corners, first: u32, finer: u32) {
-        if let Some(classification) = patch.quick(corners) {
-            let above = classification == Classification::Opaque;
-            return self.put(if above { OpacityState::Opaque } else { OpacityState::Transparent }, first, finer);
-        }
-        if finer > 0 {
-            for which in 0..4 {
-                self.visit_patch(patch, corners.part(which), first + (which << (2 * (finer - 1))), finer - 1);
+    /// The same within a patch, for a node that is known not to be on one side, or not known to be.
+    fn visit_patch(&mut self, patch: &mut Patch, spot: Spot, first: u32, finer: u32) {
+        let finer = finer - 1;
+        for which in 0..4 {
+            let (spot, first) = (patch.part(spot, finer, which), first + (which << (2 * finer)));
+            match patch.quick(spot, finer) {
+                Some(Classification::Opaque) => self.put(OpacityState::Opaque, first, finer),
+                Some(_) => self.put(OpacityState::Transparent, first, finer),
+                None if finer == 0 => self.leaf(patch, spot, first),
+                None => self.visit_patch(patch, spot, first, finer),
             }
-            return;
         }
-        let surface = self.baker.surface;
-        let classification = patch.leaf(surface, corners);
-        let node = Node { weights: patch.weights(corners), level: self.level };
-        let classification = classification.unwrap_or_else(|| node.scan(surface, self.triangle));
-        self.set(classification, node, first, finer, Some(patch));
+    }
+
+    /// Decides one microtriangle of a patch.
+    fn leaf(&mut self, patch: &mut Patch, spot: Spot, first: u32) {
+        let BlockBaker { surface, promotion, .. } = *self.baker;
+        let node = |patch: &Patch| Node { weights: patch.weights(spot), level: self.level };
+        let classification = patch.leaf(surface, spot).unwrap_or_else(|| node(patch).scan(surface, self.triangle));
+        let mostly_opaque = || patch.mostly_opaque(surface, spot).unwrap_or_else(|| self.mostly_opaque(node(patch)));
+        let state = promotion.state(classification, mostly_opaque);
+        self.decide(classification, state, first, 0);
     }
 
     /// Sets all microtriangles below `node` to the state for `classification`.
-    fn set(&mut self, classification: Classification, node: Node, first: u32, finer: u32, patch: Option<&Patch>) {
-        let BlockBaker { surface, promotion, .. } = *self.baker;
-        let state = promotion.state(classification, || {
-            let corners = self.triangle.corners(node.weights, node.level, surface.shift());
-            mostly_opaque(&corners, |x, y| match patch {
-                Some(patch) => patch.is_above_near(surface, x, y),
-                None => surface.is_above_near(x, y),
-            })
-        });
+    fn set(&mut self, classification: Classification, node: Node, first: u32, finer: u32) {
+        let state = self.baker.promotion.state(classification, || self.mostly_opaque(node));
+        self.decide(classification, state, first, finer);
+    }
+
+    fn mostly_opaque(&self, node: Node) -> bool {
+        let surface = self.baker.surface;
+        let corners = self.triangle.corners(node.weights, node.level, surface.shift());
+        mostly_opaque(&corners, |x, y| surface.is_above_near(x, y))
+    }
+
+    fn decide(&mut self, classification: Classification, state: OpacityState, first: u32, finer: u32) {
         self.put(state, first, finer);
-        if classification == Classification::Undecided {
-            self.tally.undecided += 1;
-        }
+        self.tally.undecided += u64::from(classification == Classification::Undecided);
     }
 
     fn put(&mut self, state: OpacityState, first: u32, finer: u32) {

@@ -16,10 +16,7 @@ impl Planes {
     pub(crate) fn new(surface: &Surface<'_>) -> Self {
         let texture = surface.texture();
         let words_per_row = texture.width().div_ceil(WORD) as usize;
-        let mut words = Vec::with_capacity(words_per_row * texture.height() as usize);
-        for row in 0..texture.height() {
-            texture.above_words(row, surface.threshold(), &mut words);
-        }
+        let words = texture.above(surface.threshold());
         Self { words, words_per_row }
     }
 
@@ -29,12 +26,15 @@ impl Planes {
         if word < self.words_per_row { self.words.get(at).copied().unwrap_or(0) } else { 0 }
     }
 
-    /// 64 texels of row `row` from column `column` on.
-    pub(crate) fn bits(&self, row: u32, column: u32) -> u64 {
+    /// For each of `lines`, a row of the texture from `row` on, 64 texels from column `column` on.
+    pub(crate) fn load<'a>(&self, row: u32, column: u32, lines: impl Iterator<Item = &'a mut u64>) {
         let (word, shift) = ((column / WORD) as usize, column % WORD);
-        let low = self.word(row, word) >> shift;
-        // A shift by 64 in two steps, as one has no meaning.
-        low | (self.word(row, word + 1) << 1) << (WORD - 1 - shift)
+        let rows = self.words.chunks_exact(self.words_per_row).skip(row as usize);
+        for (line, words) in lines.zip(rows) {
+            let at = |word: usize| words.get(word).copied().unwrap_or(0);
+            // A shift by 64 in two steps, as one has no meaning.
+            *line = at(word) >> shift | (at(word + 1) << 1) << (WORD - 1 - shift);
+        }
     }
 
     /// Whether texel (`column`, `row`) is above the cutoff.
@@ -49,18 +49,18 @@ impl Planes {
         let flip = if side { u64::MAX } else { 0 };
         let (first, last) = ((left / WORD) as usize, (right / WORD) as usize);
         let (from_left, to_right) = (u64::MAX << (left % WORD), u64::MAX >> (WORD - 1 - right % WORD));
-        for row in top..=bottom {
-            for word in first..=last {
-                let mut mask = u64::MAX;
-                if word == first {
-                    mask &= from_left;
+        let rows = self.words.chunks_exact(self.words_per_row).skip(top as usize).take((bottom + 1 - top) as usize);
+        for row in rows {
+            let other = match row.get(first..=last) {
+                Some(&[word]) => (word ^ flip) & from_left & to_right,
+                Some(&[start, ref between @ .., end]) => {
+                    let between = between.iter().fold(0, |other, word| other | (word ^ flip));
+                    between | (start ^ flip) & from_left | (end ^ flip) & to_right
                 }
-                if word == last {
-                    mask &= to_right;
-                }
-                if (self.word(row, word) ^ flip) & mask != 0 {
-                    return None;
-                }
+                _ => 0,
+            };
+            if other != 0 {
+                return None;
             }
         }
         Some(side)
@@ -88,9 +88,11 @@ mod tests {
                 for column in 0..width {
                     let above = surface.is_above(column.into(), row.into());
                     assert_eq!(planes.bit(row, column), above);
-                    assert_eq!(planes.bits(row, column) & 1 == 1, above);
+                    let mut bits = 0;
+                    planes.load(row, column, std::iter::once(&mut bits));
+                    assert_eq!(bits & 1 == 1, above);
                     let far = (column + 63 < width).then(|| surface.is_above(i64::from(column) + 63, row.into()));
-                    assert_eq!(planes.bits(row, column) >> 63 == 1, far.unwrap_or(false));
+                    assert_eq!(bits >> 63 == 1, far.unwrap_or(false));
                     for right in [column, (column + 2).min(width - 1), (column + 70).min(width - 1)] {
                         let side =
                             surface.side(column.into()..=right.into(), row.into()..=(row + 1).min(height - 1).into());

@@ -41,7 +41,7 @@ impl UnknownStatePromotion {
 
 /// The centroids of the triangles two levels down: weights of the second and the third corner, in twelfths. In an order
 /// in which the first say much.
-const SAMPLES: [[f64; 2]; 16] = [
+pub(crate) const SAMPLES: [[f64; 2]; 16] = [
     [5.0, 5.0],
     [1.0, 1.0],
     [10.0, 1.0],

@@ -247,23 +247,37 @@ impl Texture {
         self.extremes
     }
 
-    /// Appends to `words` a bit for each texel of row `y`: whether its stored value is above `threshold`. The caller has proved
-    /// `y < height`.
-    pub(crate) fn above_words(&self, y: u32, threshold: f64, words: &mut Vec<u64>) {
-        let start = y as usize * self.row_pitch;
-        let row = start..start + self.width as usize;
+    /// A bit for each texel, whether its stored value is above `threshold`: rows of whole words, bit *k* of a word for the *k*-th of
+    /// its texels.
+    pub(crate) fn above(&self, threshold: f64) -> Vec<u64> {
         match &self.texels {
             Texels::Unorm8(texels) => {
-                // How many of the 256 values are not above: in order, so the value itself tells.
-                let not_above = (0..=u8::MAX).filter(|&value| f64::from(value) <= threshold).count() as u16;
-                let above = |value: u8| u16::from(value) >= not_above;
-                words.extend(texels[row].chunks(64).map(|values| above_word(values, above)));
+                // The least value that is above: in order, so the values themselves tell. There is one, or nothing is above.
+                let least = (0..=u8::MAX).find(|&value| f64::from(value) > threshold);
+                let above = |value: u8| least.is_some_and(|least| value >= least);
+                self.words(texels, above)
             }
-            Texels::Fp32(texels) => {
-                let above = |value: f32| f64::from(value) > threshold;
-                words.extend(texels[row].chunks(64).map(|values| above_word(values, above)));
+            Texels::Fp32(texels) => self.words(texels, |value| f64::from(value) > threshold),
+        }
+    }
+
+    fn words<T: Copy>(&self, texels: &[T], above: impl Fn(T) -> bool) -> Vec<u64> {
+        let words_per_row = self.width.div_ceil(u64::BITS) as usize;
+        let mut words = Vec::with_capacity(words_per_row * self.height as usize);
+        for row in rows(texels, self.width, self.row_pitch) {
+            let (whole, rest) = row.as_chunks::<64>();
+            words.extend(whole.iter().map(|values| {
+                let mut flags = [0; 64];
+                flags.iter_mut().zip(values).for_each(|(flag, &value)| *flag = above(value).into());
+                word(&flags)
+            }));
+            if !rest.is_empty() {
+                let mut flags = [0; 64];
+                flags.iter_mut().zip(rest).for_each(|(flag, &value)| *flag = above(value).into());
+                words.push(word(&flags));
             }
         }
+        words
     }
 
     /// The stored values of the texels (`x`, `y`), (`x` + 1, `y`), (`x`, `y` + 1) and (`x` + 1, `y` + 1), exactly; `None` if the data
@@ -283,6 +297,28 @@ impl Texture {
         }
     }
 
+    /// For each of `lines`, a row from `y` on, the stored values of the texels from column `x` on, less `threshold` and times `scale`,
+    /// rounded; `false` if the data ends before the last. Beyond the end of a row is whatever comes next.
+    #[inline]
+    pub(crate) fn differences<const N: usize>(
+        &self,
+        [x, y]: [u32; 2],
+        threshold: f64,
+        scale: f64,
+        lines: &mut [[f32; N]],
+    ) -> bool {
+        let at = y as usize * self.row_pitch + x as usize;
+        match &self.texels {
+            Texels::Unorm8(texels) => {
+                let (threshold, scale) = (threshold as f32, scale as f32);
+                fill(texels, at, self.row_pitch, lines, |texel| (f32::from(texel) - threshold) * scale)
+            }
+            Texels::Fp32(texels) => {
+                fill(texels, at, self.row_pitch, lines, |texel| ((f64::from(texel) - threshold) * scale) as f32)
+            }
+        }
+    }
+
     /// The stored value of texel (`x`, `y`), exactly. The caller has proved `x < width` and `y < height`.
     pub(crate) fn stored(&self, x: u32, y: u32) -> f64 {
         let at = y as usize * self.row_pitch + x as usize;
@@ -293,20 +329,33 @@ impl Texture {
     }
 }
 
-/// Whether each of up to 64 values is above a threshold, the first in the least significant bit.
-fn above_word<T: Copy>(values: &[T], above: impl Fn(T) -> bool) -> u64 {
-    // In bytes first: these loops have no data dependence from one value to the next.
-    let mut flags = [0_u8; 64];
-    for (flag, &value) in flags.iter_mut().zip(values) {
-        *flag = above(value).into();
-    }
+/// The lowest bits of 64 bytes, the first in the least significant bit.
+fn word(flags: &[u8; 64]) -> u64 {
     let mut word = 0;
-    for (bit, flags) in (0_u32..).step_by(8).zip(flags.chunks_exact(8)) {
-        let bytes = flags.iter().rev().fold(0_u64, |bytes, &flag| bytes << 8 | u64::from(flag));
+    for (bit, &flags) in (0_u32..).step_by(8).zip(flags.as_chunks::<8>().0) {
         // Gathers the lowest bits of eight bytes in the top byte of the product: no two terms meet in a bit.
-        word |= (bytes.wrapping_mul(0x0102_0408_1020_4080) >> 56) << bit;
+        word |= (u64::from_le_bytes(flags).wrapping_mul(0x0102_0408_1020_4080) >> 56) << bit;
     }
     word
+}
+
+/// The starts of rows of `row_pitch` texels from `at` on, into `lines`; `false` if there are not as many texels.
+#[inline]
+fn fill<T: Copy, const N: usize>(
+    texels: &[T],
+    at: usize,
+    row_pitch: usize,
+    lines: &mut [[f32; N]],
+    value: impl Fn(T) -> f32,
+) -> bool {
+    let mut rows = texels.get(at..).unwrap_or_default().chunks(row_pitch);
+    for line in lines {
+        let Some(texels) = rows.next().and_then(<[T]>::first_chunk::<N>) else { return false };
+        for (to, &from) in line.iter_mut().zip(texels) {
+            *to = value(from);
+        }
+    }
+    true
 }
 
 /// The texels of each row. The sizes have been checked.

@@ -1,4 +1,4 @@
-//! One cell's polynomial, and the way of an edge from cell to cell; the proof is with [`Patch`](super::Patch).
+//! One cell's polynomial, and the part of an edge that is in a cell; the proof is with [`Patch`](super::Patch).
 
 use crate::surface::Surface;
 use crate::window::Window;
@@ -13,46 +13,26 @@ pub(super) fn greater(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-/// The way of a coordinate from cell to cell.
-pub(super) struct Walk {
-    from: f64,
+/// By how much a coordinate changes along an edge.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Change {
+    pub(super) by: f64,
+    /// 1 / `by`; finite, as 0 times infinity is not a number.
     inverse: f64,
-    pub(super) cell: u32,
-    /// Crossings that are still to come.
-    pub(super) left: u32,
-    up: bool,
-    /// Where the next one is, or infinity.
-    pub(super) t: f64,
 }
 
-impl Walk {
-    pub(super) fn new(from: f64, to: f64) -> Self {
-        let (cell, last) = (from as u32, to as u32);
-        let mut walk = Self {
-            from,
-            // Not looked at unless the ends are in different cells, and so not equal.
-            inverse: 1.0 / (to - from),
-            cell,
-            left: cell.abs_diff(last),
-            up: last > cell,
-            t: f64::INFINITY,
-        };
-        walk.set_t();
-        walk
+impl Change {
+    pub(super) fn new(by: f64) -> Self {
+        Self { by, inverse: (1.0 / by).clamp(f64::MIN, f64::MAX) }
     }
 
-    fn set_t(&mut self) {
-        self.t = if self.left == 0 {
-            f64::INFINITY
-        } else {
-            (f64::from(self.cell + u32::from(self.up)) - self.from) * self.inverse
-        };
-    }
-
-    pub(super) fn step(&mut self) {
-        self.left = self.left.saturating_sub(1);
-        self.cell = if self.up { self.cell + 1 } else { self.cell.saturating_sub(1) };
-        self.set_t();
+    /// The part of `[from, to]` in which a coordinate that starts at `start` is in `cell`; none if `from` is above `to`. What ends at
+    /// the bound of one cell starts there in the next.
+    #[inline]
+    pub(super) fn part(self, start: f64, cell: u32, [from, to]: [f64; 2]) -> [f64; 2] {
+        let cell = f64::from(cell);
+        let (lower, upper) = ((cell - start) * self.inverse, (cell + 1.0 - start) * self.inverse);
+        [greater(from, lesser(lower, upper)), lesser(to, greater(lower, upper))]
     }
 }
 
@@ -80,6 +60,17 @@ impl Cell {
         let [d00, d10, d01, _] = self.values;
         let (a, b) = (x - self.x, y - self.y);
         d00 + a * (d10 - d00) + b * (d01 - d00) + a * b * self.twist()
+    }
+
+    /// The least value, times `towards`, on a rectangle: ranges of positions within the cell.
+    #[inline]
+    pub(super) fn least_within(&self, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2], towards: f64) -> f64 {
+        let [d00, d10, d01, d11] = self.values.map(|value| towards * value);
+        let at = |y: f64| {
+            let (left, right) = (d00 + y * (d01 - d00), d10 + y * (d11 - d10));
+            lesser(left + x0 * (right - left), left + x1 * (right - left))
+        };
+        lesser(at(y0), at(y1))
     }
 
     /// The least value, times `towards`, on the way between two points; where it is above `enough`, perhaps a lower bound.
@@ -122,18 +113,37 @@ mod tests {
     }
 
     #[test]
-    fn cells_on_the_way() {
-        let mut walk = Walk::new(2.25, 4.5);
-        assert_eq!((walk.cell, walk.left), (2, 2));
-        assert!((walk.t - 1.0 / 3.0).abs() < 1e-12);
-        walk.step();
-        assert!((walk.t - 7.0 / 9.0).abs() < 1e-12);
-        walk.step();
-        assert_eq!((walk.cell, walk.left, walk.t), (4, 0, f64::INFINITY));
-        let mut back = Walk::new(3.0, 2.5);
-        assert_eq!((back.cell, back.left, back.t), (3, 1, 0.0));
-        back.step();
-        assert_eq!((back.cell, back.left), (2, 0));
-        assert_eq!(Walk::new(1.5, 1.5).t, f64::INFINITY);
+    fn the_least_value_on_a_rectangle() {
+        let cell = Cell { x: 3.0, y: 7.0, values: [5.0, 1.0, 2.0, -3.0] };
+        for towards in [1.0, -1.0] {
+            for (xs, ys) in [([0.0, 1.0], [0.0, 1.0]), ([0.25, 0.5], [0.5, 0.75]), ([0.5, 0.5], [0.25, 1.0])] {
+                let grid = (0..=16).flat_map(|i| (0..=16).map(move |j| (f64::from(i) / 16.0, f64::from(j) / 16.0)));
+                let at = |(p, q): (f64, f64)| {
+                    cell.value(3.0 + xs[0] + p * (xs[1] - xs[0]), 7.0 + ys[0] + q * (ys[1] - ys[0]))
+                };
+                let expected = grid.map(|place| towards * at(place)).fold(f64::INFINITY, f64::min);
+                assert!((cell.least_within(xs, ys, towards) - expected).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn parts_in_cells() {
+        let all = [0.0, 1.0];
+        let up = Change::new(2.0);
+        assert_eq!(up.part(2.5, 2, all), [0.0, 0.25]);
+        assert_eq!(up.part(2.5, 3, all), [0.25, 0.75]);
+        assert_eq!(up.part(2.5, 4, all), [0.75, 1.0]);
+        let down = Change::new(-0.5);
+        assert_eq!(down.part(3.0, 2, all), [0.0, 1.0]);
+        assert_eq!(down.part(3.0, 3, all), [0.0, 0.0]);
+        assert_eq!(down.part(3.25, 2, [0.0, 0.75]), [0.5, 0.75]);
+        for still in [Change::new(0.0), Change::new(1e-320), Change::new(-1e-320)] {
+            assert_eq!(still.part(1.5, 1, all), all);
+            let [from, to] = still.part(1.5, 2, all);
+            assert!(from > to);
+            // On a bound, at least one of its cells has all of it.
+            assert!([0, 1].map(|cell| still.part(1.0, cell, all)).contains(&all));
+        }
     }
 }
