@@ -27,19 +27,23 @@ pub(crate) struct Search<'s> {
     instances: Range<usize>,
     /// Whether only the instances without a box are left.
     boxes_done: bool,
-    stage: Stage<'s>,
+    stage: Stage,
+    /// The instance that was entered last.
+    visit: Option<Visit<'s>>,
     inner: Walk,
     /// Slots of primitives of the instance that are to be tried before its walk goes on.
     primitives: Range<usize>,
 }
 
 /// Where a search is.
-#[derive(Clone, Debug)]
-enum Stage<'s> {
+#[derive(Clone, Copy, Debug)]
+enum Stage {
     /// Between two instances.
     Outside,
-    Triangles(Visit<'s>, TriangleRay),
-    Aabbs(Visit<'s>),
+    /// Among the triangles of an instance.
+    Triangles,
+    /// Among its boxes.
+    Aabbs,
 }
 
 /// What the search knows while it is inside an instance.
@@ -51,6 +55,7 @@ struct Visit<'s> {
     direction: [f64; 3],
     opacity: InstanceOpacity,
     facing: Facing,
+    triangle_ray: TriangleRay,
     /// The ray among the boxes of triangles, or of AABBs.
     box_ray: BoxRay,
 }
@@ -77,6 +82,7 @@ pub(crate) enum Offer {
 }
 
 impl<'s> Search<'s> {
+    #[inline]
     pub(crate) fn new(scene: &'s Scene, ray: &Ray, options: &TraceOptions) -> Self {
         let found = Found {
             scene,
@@ -96,6 +102,7 @@ impl<'s> Search<'s> {
             instances: 0..0,
             boxes_done: false,
             stage: Stage::Outside,
+            visit: None,
             inner: Walk::new(),
             primitives: 0..0,
         }
@@ -106,14 +113,14 @@ impl<'s> Search<'s> {
     #[inline]
     pub(crate) fn next(&mut self, counters: &mut Counters) -> Option<Offer> {
         while !self.found.ended {
-            match &self.stage {
+            match self.stage {
                 Stage::Outside => self.enter()?,
-                Stage::Triangles(..) => {
+                Stage::Triangles => {
                     if let Some(candidate) = self.triangles(counters) {
                         return Some(Offer::Triangle(candidate));
                     }
                 }
-                Stage::Aabbs(_) => {
+                Stage::Aabbs => {
                     if let Some(aabb) = self.aabbs(counters) {
                         return Some(Offer::Aabb(aabb));
                     }
@@ -137,16 +144,17 @@ impl<'s> Search<'s> {
                 let Some(to_object) = scene.to_object(slot, instance, self.found.ray.time()) else { continue };
                 let origin = to_object.point(self.found.ray.origin());
                 let direction = to_object.direction(self.found.ray.direction());
-                let visit = Visit {
+                self.visit = Some(Visit {
                     instance,
                     blas,
                     origin,
                     direction,
                     opacity: flags::instance_opacity(instance.flags),
                     facing: Facing::new(self.found.options.flags, instance.flags),
+                    triangle_ray: TriangleRay::new(origin, direction),
                     box_ray: BoxRay::new(&blas.triangle_bvh, origin, direction, self.found.ray.t_min()),
-                };
-                self.begin_triangles(visit);
+                });
+                self.begin_triangles(blas);
                 return Some(());
             }
             match self.outer.next(&scene.bvh, &self.box_ray, self.found.limit()) {
@@ -160,31 +168,29 @@ impl<'s> Search<'s> {
         }
     }
 
-    fn begin_triangles(&mut self, visit: Visit<'s>) {
-        if visit.blas.triangles.is_empty() || self.found.options.flags.contains(RayFlags::SKIP_TRIANGLES) {
-            return self.begin_aabbs(visit);
+    fn begin_triangles(&mut self, blas: &Blas) {
+        if blas.triangles.is_empty() || self.found.options.flags.contains(RayFlags::SKIP_TRIANGLES) {
+            return self.begin_aabbs();
         }
-        self.inner.begin(&visit.blas.triangle_bvh);
-        let triangle_ray = TriangleRay::new(visit.origin, visit.direction);
-        self.stage = Stage::Triangles(visit, triangle_ray);
+        self.inner.begin(&blas.triangle_bvh);
+        self.stage = Stage::Triangles;
     }
 
-    fn begin_aabbs(&mut self, mut visit: Visit<'s>) {
-        self.stage = if visit.blas.aabbs.is_empty() || self.found.options.flags.contains(RayFlags::SKIP_AABBS) {
-            Stage::Outside
-        } else {
-            let bvh = &visit.blas.aabb_bvh;
+    fn begin_aabbs(&mut self) {
+        self.stage = Stage::Outside;
+        let Some(visit) = &mut self.visit else { return };
+        let bvh = &visit.blas.aabb_bvh;
+        if !visit.blas.aabbs.is_empty() && !self.found.options.flags.contains(RayFlags::SKIP_AABBS) {
             self.inner.begin(bvh);
             visit.box_ray = BoxRay::new(bvh, visit.origin, visit.direction, self.found.ray.t_min());
-            Stage::Aabbs(visit)
-        };
+            self.stage = Stage::Aabbs;
+        }
     }
 
     /// The next triangle of the instance that somebody has to decide about. If there is none the stage is left,
     /// unless the search was ended.
     fn triangles(&mut self, counters: &mut Counters) -> Option<Candidate> {
-        let Self { found, stage, inner, primitives, .. } = self;
-        let Stage::Triangles(visit, ray) = stage else { return None };
+        let Self { found, visit: Some(visit), inner, primitives, .. } = self else { return None };
         loop {
             for (slot, triangle) in
                 primitives.clone().zip(visit.blas.triangles.get(primitives.clone()).unwrap_or_default())
@@ -193,7 +199,7 @@ impl<'s> Search<'s> {
                     None => triangle.vertices,
                     Some(end) => moved(&triangle.vertices, end, found.ray.time()),
                 };
-                let Some(hit) = ray.intersect(&vertices) else { continue };
+                let Some(hit) = visit.triangle_ray.intersect(&vertices) else { continue };
                 if let ControlFlow::Break(offer) = found.triangle(visit, triangle, hit, counters) {
                     primitives.start = slot + 1;
                     return offer;
@@ -205,15 +211,13 @@ impl<'s> Search<'s> {
                 break;
             }
         }
-        let visit = visit.clone();
-        self.begin_aabbs(visit);
+        self.begin_aabbs();
         None
     }
 
     /// The next box of the instance that the ray may meet. If there is none the stage is left.
     fn aabbs(&mut self, counters: &mut Counters) -> Option<AabbCandidate> {
-        let Self { found, stage, inner, primitives, .. } = self;
-        let Stage::Aabbs(visit) = stage else { return None };
+        let Self { found, visit: Some(visit), inner, primitives, .. } = self else { return None };
         loop {
             for (slot, aabb) in primitives.clone().zip(visit.blas.aabbs.get(primitives.clone()).unwrap_or_default()) {
                 if !visit.box_ray.meets(&aabb.planes, found.limit()) {
