@@ -79,16 +79,9 @@ impl Walk {
     /// Begins anew, at the root of `bvh`.
     pub(crate) fn begin(&mut self, bvh: &Bvh) {
         self.depth = 0;
-        if let Some(root) = bvh.root {
-            self.push(root, f32::NEG_INFINITY);
-        }
-    }
-
-    /// The builder's depth limit leaves room for one entry a level.
-    fn push(&mut self, node: Node, at: f32) {
-        if let Some(entry) = self.entries.get_mut(self.depth) {
-            *entry = (node, at);
-            self.depth += 1;
+        if let Some((entry, root)) = self.entries.first_mut().zip(bvh.root) {
+            *entry = (root, f32::NEG_INFINITY);
+            self.depth = 1;
         }
     }
 
@@ -97,32 +90,38 @@ impl Walk {
     #[inline]
     pub(crate) fn next(&mut self, bvh: &Bvh, ray: &BoxRay, limit: f32) -> Option<Range<usize>> {
         let bound = ray.bound(limit);
-        loop {
-            self.depth = self.depth.checked_sub(1)?;
-            let Some(&(mut node, at)) = self.entries.get(self.depth) else { continue };
+        let mut depth = self.depth;
+        let leaf = 'walk: loop {
+            let Some(last) = depth.checked_sub(1) else { break None };
+            depth = last;
+            let Some(&(mut node, at)) = self.entries.get(last) else { continue };
             if at > bound {
                 continue;
             }
             while node.count == 0 {
-                let pair = bvh.pairs.get(node.first as usize)?;
+                let Some(pair) = bvh.pairs.get(node.first as usize) else { break 'walk None };
                 let [left, right] = pair.nodes;
                 node = match ray.enter(&pair.planes, bound).into() {
                     (Some(left_at), Some(right_at)) => {
                         let (near, far) =
                             if right_at < left_at { (right, (left, left_at)) } else { (left, (right, right_at)) };
-                        self.push(far.0, far.1);
+                        // The builder's depth limit leaves room for one entry a level.
+                        if let Some(entry) = self.entries.get_mut(depth) {
+                            *entry = far;
+                            depth += 1;
+                        }
                         near
                     }
                     (Some(_), None) => left,
                     (None, Some(_)) => right,
-                    (None, None) => break,
+                    (None, None) => continue 'walk,
                 };
             }
-            if node.count > 0 {
-                let first = node.first as usize;
-                return Some(first..first + node.count as usize);
-            }
-        }
+            let first = node.first as usize;
+            break Some(first..first + node.count as usize);
+        };
+        self.depth = depth;
+        leaf
     }
 }
 

@@ -195,11 +195,15 @@ impl<'s> Search<'s> {
             for (slot, triangle) in
                 primitives.clone().zip(visit.blas.triangles.get(primitives.clone()).unwrap_or_default())
             {
+                let at_time;
                 let vertices = match visit.blas.ends.get(slot) {
-                    None => triangle.vertices,
-                    Some(end) => moved(&triangle.vertices, end, found.ray.time()),
+                    None => &triangle.vertices,
+                    Some(end) => {
+                        at_time = moved(&triangle.vertices, end, found.ray.time());
+                        &at_time
+                    }
                 };
-                let Some(hit) = visit.triangle_ray.intersect(&vertices) else { continue };
+                let Some(hit) = visit.triangle_ray.intersect(vertices) else { continue };
                 if let ControlFlow::Break(offer) = found.triangle(visit, triangle, hit, counters) {
                     primitives.start = slot + 1;
                     return offer;

@@ -45,7 +45,7 @@ impl Hashed {
     fn aabb(&mut self, aabb: &AabbCandidate) -> Option<f32> {
         let place = (aabb.instance_id, aabb.geometry_index, aabb.primitive_id);
         let answer = self.answer(aabb.t_max, place);
-        (answer % 4 > 0).then_some((answer % 64) as f32 / 8.0)
+        (!answer.is_multiple_of(4)).then_some((answer % 64) as f32 / 8.0)
     }
 }
 

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use omm_layout::object::{BlasObject, GeometryView, MicromapObject, ObjectHeader, StoredTriangle, TlasObject};
+use omm_layout::object::{
+    BlasObject, GeometryView, MicromapObject, ObjectHeader, StoredTriangle, TlasObject, TriangleVertices,
+};
 use omm_model::memory::MemoryView;
 use omm_model::special_index::TriangleMap;
 use omm_model::vk::{self, DeviceAddress, GeometryFlags};
@@ -154,7 +156,7 @@ fn read_triangle(
     geometry: u32,
     triangle: &StoredTriangle,
     micromap: Option<&Micromap>,
-) -> Result<Option<(Triangle, [[f32; 3]; 3])>, LoadErrorKind> {
+) -> Result<Option<(Triangle, TriangleVertices)>, LoadErrorKind> {
     let StoredTriangle { primitive_index: primitive, vertices, vertices_t1, map } = *triangle;
     let opacity = match map {
         None => TriangleOpacity::Geometry,
@@ -189,7 +191,7 @@ impl Blas {
     /// are kept if it `moves`.
     fn fill(
         &mut self,
-        triangles: &[(Triangle, [[f32; 3]; 3])],
+        triangles: &[(Triangle, TriangleVertices)],
         aabbs: &[Aabb],
         moves: bool,
     ) -> Result<(), LoadErrorKind> {
