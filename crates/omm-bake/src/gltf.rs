@@ -12,10 +12,12 @@
 //! - **Sampler**: along each axis `REPEAT` is [`AddressMode::Wrap`], `MIRRORED_REPEAT` is [`AddressMode::Mirror`], `CLAMP_TO_EDGE` is
 //!   [`AddressMode::Clamp`]; the magnification filter is the filter, linear where none is given. Mipmaps are not looked at.
 //!
-//! Nodes and scenes play no part: a primitive is baked once, however often it is placed.
+//! Nodes and scenes play no part in baking: a primitive is baked once, however often it is placed. [`read_scene`] reads them, and all
+//! that is not masked, for those who want to look.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf::json;
 use json::material::{AlphaMode, Material};
@@ -32,10 +34,12 @@ mod container;
 mod cutoff;
 mod error;
 mod image;
+mod scene;
 mod transform;
 mod uri;
 
 pub use error::{GltfError, GltfErrorKind};
+pub use scene::{GltfCamera, GltfPlacement, GltfScene, Mask, Matrix, ScenePrimitive, read_scene};
 
 use accessor::Elements;
 use container::Container;
@@ -48,6 +52,8 @@ pub struct GltfFile {
     pub textures: Vec<Texture>,
     /// The primitives in the order of meshes and, within a mesh, of primitives. Never empty.
     pub primitives: Vec<MaskedPrimitive>,
+    /// The files that were read: the glTF file, then those of its buffers and of the images in use, each once.
+    pub files: Vec<PathBuf>,
 }
 
 /// One primitive to bake.
@@ -108,7 +114,9 @@ pub fn read(path: &Path) -> Result<GltfFile, GltfError> {
     if primitives.is_empty() {
         return Err(container.error("meshes", GltfErrorKind::NothingToBake));
     }
-    Ok(GltfFile { textures: reader.textures, primitives })
+    let images = reader.by_image.keys().filter_map(|&index| container.root.images.get(index)?.uri.as_deref());
+    let files = container.files(images);
+    Ok(GltfFile { textures: reader.textures, primitives, files })
 }
 
 /// A material and the place where it stands.
@@ -190,9 +198,22 @@ impl<'a> Reader<'a> {
 
     /// The index of the texture's alpha, and how it is read.
     fn texture(&mut self, info: &Info, at: &str) -> Result<(usize, Sampler), GltfError> {
+        let (image_index, sampler) = self.texture_source(info, at)?;
+        if let Some(&known) = self.by_image.get(&image_index) {
+            return Ok((known, sampler));
+        }
+        let bytes = self.image_bytes(image_index)?;
+        let alpha = image::alpha(&bytes).map_err(|kind| self.container.error(format!("images[{image_index}]"), kind));
+        self.textures.push(alpha?);
+        let index = self.textures.len() - 1;
+        self.by_image.insert(image_index, index);
+        Ok((index, sampler))
+    }
+
+    /// The number of a texture's image, and how it is read.
+    fn texture_source(&self, info: &Info, at: &str) -> Result<(usize, Sampler), GltfError> {
         let container = self.container;
-        let root = &container.root;
-        let texture = container.item(&root.textures, info.index.value(), &format!("{at}.index"))?;
+        let texture = container.item(&container.root.textures, info.index.value(), &format!("{at}.index"))?;
         let at = format!("textures[{}]", info.index.value());
         let sampler = match texture.sampler {
             Some(index) => self.sampler(index.value(), &format!("{at}.sampler"))?,
@@ -203,20 +224,20 @@ impl<'a> Reader<'a> {
         if image_index == u32::MAX as usize {
             return Err(container.error(at, GltfErrorKind::NoImage));
         }
-        if let Some(&known) = self.by_image.get(&image_index) {
-            return Ok((known, sampler));
-        }
-        let image = container.item(&root.images, image_index, &format!("{at}.source"))?;
+        container.item(&container.root.images, image_index, &format!("{at}.source"))?;
+        Ok((image_index, sampler))
+    }
+
+    /// The bytes of an image file.
+    fn image_bytes(&self, image_index: usize) -> Result<Cow<'a, [u8]>, GltfError> {
+        let container = self.container;
         let at = format!("images[{image_index}]");
-        let alpha = match (&image.uri, image.buffer_view) {
-            (Some(uri), _) => image::alpha(&uri::read(&container.file, &format!("{at}.uri"), uri)?),
-            (None, Some(view)) => image::alpha(container.view(view.value(), &format!("{at}.bufferView"))?.0),
-            (None, None) => return Err(container.error(at, GltfErrorKind::NoImage)),
-        };
-        self.textures.push(alpha.map_err(|kind| container.error(at, kind))?);
-        let index = self.textures.len() - 1;
-        self.by_image.insert(image_index, index);
-        Ok((index, sampler))
+        let image = container.item(&container.root.images, image_index, &at)?;
+        match (&image.uri, image.buffer_view) {
+            (Some(uri), _) => Ok(uri::read(&container.file, &format!("{at}.uri"), uri)?.into()),
+            (None, Some(view)) => Ok(container.view(view.value(), &format!("{at}.bufferView"))?.0.into()),
+            (None, None) => Err(container.error(at, GltfErrorKind::NoImage)),
+        }
     }
 
     fn sampler(&self, index: usize, at: &str) -> Result<Sampler, GltfError> {

@@ -61,6 +61,8 @@ pub struct Job {
     pub triangles: Vec<[u32; 3]>,
     /// How it is to be baked.
     pub options: BakeOptions,
+    /// The files that were read: the job file, texture, texture coordinates and triangles.
+    pub files: Vec<PathBuf>,
 }
 
 impl Job {
@@ -215,14 +217,15 @@ pub fn read(path: &Path) -> Result<Job, JobError> {
     let fail = |field, kind| JobError { file: path.into(), field, kind };
     let bytes = files::read(path).map_err(|error| fail(None, JobErrorKind::Read(error)))?;
     let job: JobFile = serde_json::from_slice(&bytes).map_err(|error| fail(None, JobErrorKind::Json(error)))?;
-    job.resolve(path.parent().unwrap_or(Path::new(""))).map_err(|(field, kind)| fail(Some(field), kind))
+    job.resolve(path).map_err(|(field, kind)| fail(Some(field), kind))
 }
 
 /// The field that is wrong, and what is wrong with it.
 type FieldError = (&'static str, JobErrorKind);
 
 impl JobFile {
-    fn resolve(self, folder: &Path) -> Result<Job, FieldError> {
+    fn resolve(self, file: &Path) -> Result<Job, FieldError> {
+        let folder = file.parent().unwrap_or(Path::new(""));
         let name = files::safe_name(&self.name);
         if name.is_empty() {
             return Err(("name", JobErrorKind::EmptyName));
@@ -231,7 +234,9 @@ impl JobFile {
         let texture = self.texture.read(folder)?;
         let uvs = pairs(&part(folder, &self.uvs, "uvs", Size::MultipleOf(8))?);
         let triangles = self.read_triangles(folder, uvs.len())?;
-        Ok(Job { name, texture, uvs, triangles, options })
+        let parts = [&self.texture.path, &self.uvs, &self.triangles].map(|part| folder.join(part));
+        let files = std::iter::once(file.to_path_buf()).chain(parts).collect();
+        Ok(Job { name, texture, uvs, triangles, options, files })
     }
 
     fn options(&self) -> Result<BakeOptions, FieldError> {

@@ -37,7 +37,42 @@ pub fn time<T>(enough: Duration, mut work: impl FnMut() -> T) -> (Duration, T) {
     }
 }
 
-fn thread_time() -> Option<Duration> {
+/// The least and the most of several measurements.
+#[derive(Clone, Copy, Debug)]
+pub struct Times {
+    least: Duration,
+    most: Duration,
+}
+
+impl Default for Times {
+    fn default() -> Self {
+        Self { least: Duration::MAX, most: Duration::ZERO }
+    }
+}
+
+impl Times {
+    /// Takes one more.
+    pub fn add(&mut self, time: Duration) {
+        self.least = self.least.min(time);
+        self.most = self.most.max(time);
+    }
+
+    /// The least; the longest duration that there is if there were none.
+    #[must_use]
+    pub const fn least(&self) -> Duration {
+        self.least
+    }
+
+    /// The most over the least: how noisy the measurements were.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        self.most.as_secs_f64() / self.least.as_secs_f64()
+    }
+}
+
+/// How long the calling thread has run, if the system tells.
+#[must_use]
+pub fn thread_time() -> Option<Duration> {
     let text = std::fs::read_to_string(THREAD_TIME).ok()?;
     Some(Duration::from_nanos(text.split_whitespace().next()?.parse().ok()?))
 }

@@ -18,7 +18,7 @@ use omm_model::opacity::OpacityState;
 use omm_model::special_index::TriangleMap;
 use serde::Serialize;
 
-use crate::clock::{self, ClockKind};
+use crate::clock::{self, ClockKind, Times};
 use crate::workload::Workload;
 
 /// How long a round of one baker lasts.
@@ -146,7 +146,7 @@ pub fn measure(workload: &Workload, rounds: u32) -> Result<BakeRow, MeasureError
         }
     }
     let microtriangles = workload.microtriangles();
-    let rate = |times: &Times| microtriangles as f64 / times.least.as_secs_f64() / 1e6;
+    let rate = |times: &Times| microtriangles as f64 / times.least().as_secs_f64() / 1e6;
     let known = |judged: Judged| judged.known as f64 / microtriangles as f64;
     Ok(BakeRow {
         workload: workload.name,
@@ -163,29 +163,6 @@ pub fn measure(workload: &Workload, rounds: u32) -> Result<BakeRow, MeasureError
         meshopt_missed: their_states.missed,
         clock: clock::kind(),
     })
-}
-
-/// The least and the most of several measurements.
-struct Times {
-    least: Duration,
-    most: Duration,
-}
-
-impl Default for Times {
-    fn default() -> Self {
-        Self { least: Duration::MAX, most: Duration::ZERO }
-    }
-}
-
-impl Times {
-    fn add(&mut self, time: Duration) {
-        self.least = self.least.min(time);
-        self.most = self.most.max(time);
-    }
-
-    fn spread(&self) -> f64 {
-        self.most.as_secs_f64() / self.least.as_secs_f64()
-    }
 }
 
 /// meshoptimizer's baker: linear filter, wrapping, cutoff 0.5, 4 states.

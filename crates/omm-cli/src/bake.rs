@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 use omm_bake::gltf::{self, GltfFile};
 use omm_bake::job::{self, Job};
 use omm_bake::{BakeInput, BakeOptions, BakeOutput, LevelChoice, UnknownStatePromotion, picture};
@@ -17,18 +17,23 @@ use crate::output::{self, OutputSet};
 use crate::progress::Progress;
 
 mod statistics;
+mod target;
 
 use statistics::Statistics;
+use target::Target;
 
 /// Arguments of `omm bake`.
 #[derive(Debug, Args)]
-#[command(after_help = HELP)]
+#[command(after_help = HELP, group(ArgGroup::new("target").required(true)))]
 pub(crate) struct BakeArgs {
     /// A glTF file (.gltf, .glb), of which every alpha-masked primitive is baked, or a job file (.json).
     input: PathBuf,
     /// Where results go; made if absent.
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    #[arg(long, value_name = "DIR", group = "target")]
+    out: Option<PathBuf>,
+    /// Put all results into one bundle and not into a folder.
+    #[arg(short = 'o', long, value_name = "FILE.omm", group = "target", conflicts_with = "picture")]
+    bundle: Option<PathBuf>,
     /// Also draw each texture with its microtriangles coloured by state.
     #[arg(long)]
     picture: bool,
@@ -88,9 +93,9 @@ fn positive(text: &str) -> Result<f32, String> {
 /// Runs `omm bake`.
 pub(crate) fn run(args: &BakeArgs, format: Format) -> Result<Outcome, CliError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(args.threads).build();
-    let results = pool.map_err(CliError::Threads)?.install(|| args.bake())?;
+    let (results, place) = pool.map_err(CliError::Threads)?.install(|| args.bake())?;
     match format {
-        Format::Text => output::print(|out| print(&results, &args.out, out))?,
+        Format::Text => output::print(|out| print(&results, &place, out))?,
         Format::Json => output::print_json(&results)?,
     }
     Ok(Outcome::Clean)
@@ -114,15 +119,21 @@ impl Input {
             Err(CliError::UnknownInput { path: path.into() })
         }
     }
+
+    /// The files that were read.
+    fn files(&self) -> &[PathBuf] {
+        match self {
+            Self::Job(job) => &job.files,
+            Self::Gltf(file) => &file.files,
+        }
+    }
 }
 
 impl BakeArgs {
-    /// Bakes everything and leaves the results in the output folder, all or none.
-    fn bake(&self) -> Result<Vec<Statistics>, CliError> {
+    /// Bakes everything and leaves the results in their place, which it names: all or none.
+    fn bake(&self) -> Result<(Vec<Statistics>, PathBuf), CliError> {
         let input = Input::read(&self.input)?;
-        let mut files = OutputSet::new(&self.out);
-        // Better to find out now than after the work that the folder cannot be written.
-        files.prepare()?;
+        let mut files = Target::new(self, &input)?;
         let mut results = Vec::new();
         match &input {
             Input::Job(job) => {
@@ -143,8 +154,7 @@ impl BakeArgs {
                 }
             }
         }
-        files.commit()?;
-        Ok(results)
+        Ok((results, files.commit()?))
     }
 
     /// `options` with those of the command line in their place.
@@ -181,7 +191,7 @@ impl BakeArgs {
         name: &str,
         input: &BakeInput<'_>,
         options: &BakeOptions,
-        files: &mut OutputSet,
+        files: &mut Target,
     ) -> Result<Statistics, CliError> {
         let since = std::time::Instant::now();
         let bar = Progress::new(name, 0);
@@ -190,12 +200,8 @@ impl BakeArgs {
             .map_err(|source| CliError::Bake { input: format!("{}: {name}", self.input.display()), source })?;
         drop(bar);
         let statistics = Statistics::new(name, input, options, &output, since.elapsed());
-        write_data(name, &output, files)?;
-        files.add_json(&format!("{name}.stats.json"), &statistics)?;
-        if self.picture {
-            let picture = picture::overlay(input, options.sampler, &output);
-            files.add_png(&format!("{name}.overlay.png"), &picture)?;
-        }
+        let picture = self.picture.then(|| picture::overlay(input, options.sampler, &output));
+        files.add(name, output, &statistics, picture.as_ref())?;
         Ok(statistics)
     }
 }
@@ -212,7 +218,7 @@ pub(crate) fn write_data(name: &str, output: &BakeOutput, files: &mut OutputSet)
     })
 }
 
-fn print(results: &[Statistics], folder: &Path, out: &mut dyn Write) -> std::io::Result<()> {
+fn print(results: &[Statistics], place: &Path, out: &mut dyn Write) -> std::io::Result<()> {
     let width = results.iter().map(|result| result.name().chars().count()).max().unwrap_or(0).max("name".len());
     writeln!(
         out,
@@ -222,7 +228,7 @@ fn print(results: &[Statistics], folder: &Path, out: &mut dyn Write) -> std::io:
     for result in results {
         result.print_row(width, out)?;
     }
-    writeln!(out, "written to {}", folder.display())
+    writeln!(out, "written to {}", place.display())
 }
 
 const HELP: &str = "\
@@ -232,6 +238,7 @@ Results, for a job its name, for a glTF primitive MESH_primN:
   NAME.index.bin     for each triangle of the mesh: i32, a micromap triangle or a special index
   NAME.stats.json    what was counted
   NAME.overlay.png   the picture
+With -o they go into one bundle instead, with the digests of the files that were read.
 
 A glTF file's alphaCutoff, alpha factor, texture transform and sampler are honoured, and its
 levels are chosen as with --dynamic 2 --level 8. The order of a triangle's vertices matters:
@@ -241,6 +248,7 @@ Examples:
   omm bake model.glb --out baked --picture
   omm bake model.glb --out baked --level 5 --state 2
   omm bake leaf.job.json --out baked --format json
+  omm bake model.glb -o model.omm
 
 Exit status:
   0  clean

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use omm_serialize::replace_references;
+use omm_serialize::summary::Address;
 use serde::Serialize;
 
 use crate::cli::Format;
@@ -52,9 +53,9 @@ struct Report {
     /// Null references among those kept.
     null: usize,
     /// References that the map does not name, each once.
-    not_in_map: Vec<String>,
+    not_in_map: Vec<Address>,
     /// Addresses of the map that nothing refers to.
-    unused: Vec<String>,
+    unused: Vec<Address>,
 }
 
 /// Runs `omm blob`.
@@ -67,23 +68,19 @@ pub(crate) fn run(args: &BlobArgs, format: Format) -> Result<Outcome, CliError> 
     Ok(Outcome::Clean)
 }
 
-fn text(address: u64) -> String {
-    format!("{address:#018x}")
-}
-
 fn list(path: &Path, format: Format) -> Result<(), CliError> {
-    let bytes = output::read(path)?;
+    let bytes = inspect::load(path)?;
     let (blob, _) = inspect::read(path, &bytes)?;
-    let references: Vec<_> = blob.handles().chain(blob.micromaps()).map(text).collect();
+    let mut references = blob.handles().chain(blob.micromaps()).map(Address);
     match format {
-        Format::Text => output::print(|out| references.iter().try_for_each(|reference| writeln!(out, "{reference}"))),
-        Format::Json => output::print_json(&references),
+        Format::Text => output::print(|out| references.try_for_each(|reference| writeln!(out, "{reference}"))),
+        Format::Json => output::print_json(&references.collect::<Vec<_>>()),
     }
 }
 
 fn relocate(input: &Path, map: &Path, out: &Path, format: Format) -> Result<(), CliError> {
     let map = read_map(map)?;
-    let mut bytes = output::read(input)?;
+    let mut bytes = inspect::load(input)?;
     let (_, order) = inspect::read(input, &bytes)?;
     let file_size = bytes.len() as u64;
     let mut used = BTreeMap::<u64, u64>::new();
@@ -111,8 +108,8 @@ fn relocate(input: &Path, map: &Path, out: &Path, format: Format) -> Result<(), 
         references,
         replaced,
         null,
-        not_in_map: kept.into_keys().map(text).collect(),
-        unused: map.into_keys().filter(|old| !used.contains_key(old)).map(text).collect(),
+        not_in_map: kept.into_keys().map(Address).collect(),
+        unused: map.into_keys().filter(|old| !used.contains_key(old)).map(Address).collect(),
     };
     match format {
         Format::Text => output::print(|out| report.print(out)),

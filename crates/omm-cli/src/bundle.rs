@@ -1,19 +1,21 @@
 //! `omm bundle`: baked micromaps in one file.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use omm_serialize::bundle::{Bundle, BundledMicromap, Checksums, Source};
-use serde::Serialize;
+use omm_serialize::bundle::{Bundle, BundledMicromap, Checksums, MAGIC, START_SIZE};
 
 use crate::cli::Format;
 use crate::error::{CliError, Outcome};
 use crate::output;
 
+mod list;
 mod pack;
 mod unpack;
+
+pub(crate) use list::inspect;
+pub(crate) use pack::{settings_and_statistics, source};
 
 /// Arguments of `omm bundle`.
 #[derive(Debug, Args)]
@@ -71,9 +73,27 @@ pub(crate) fn run(args: &BundleArgs, format: Format) -> Result<Outcome, CliError
     match &args.verb {
         Verb::Pack(args) => pack::run(args, format),
         Verb::Unpack(args) => unpack::run(args, format),
-        Verb::List(args) => list(&args.file, format),
+        Verb::List(args) => list::run(&args.file, format),
         Verb::Verify(args) => verify(args, format),
         Verb::Diff(args) => diff(&args.a, &args.b, format),
+    }
+}
+
+/// Whether `path` begins as a bundle of any version does.
+pub(crate) fn is_bundle(path: &Path) -> Result<bool, CliError> {
+    output::starts_with(path, &MAGIC)
+}
+
+/// The bytes of `path`, which begin as a bundle: that was looked at before anything was kept.
+fn load(path: &Path) -> Result<Vec<u8>, CliError> {
+    let start = output::start(path, START_SIZE)?;
+    match Bundle::read(&start, Checksums::Skip) {
+        // Of a bundle of any length, the start alone is too short.
+        Err(source) if !source.is_truncated() => {
+            let (_, file_size) = output::open(path)?;
+            Err(CliError::Bundle { path: path.into(), file_size, source })
+        }
+        _ => output::read(path),
     }
 }
 
@@ -90,82 +110,6 @@ fn hex(digest: &[u8; 32]) -> String {
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// What a list says of a micromap.
-#[derive(Serialize)]
-struct Row<'a> {
-    name: &'a str,
-    array_bytes: usize,
-    micromap_triangles: usize,
-    triangles: usize,
-    special: usize,
-    histogram: Vec<UsageRow>,
-    sources: Vec<SourceRow>,
-}
-
-#[derive(Serialize)]
-struct UsageRow {
-    level: u32,
-    format: u16,
-    count: u32,
-}
-
-#[derive(Serialize)]
-struct SourceRow {
-    name: String,
-    length: u64,
-    sha256: String,
-}
-
-impl From<Source> for SourceRow {
-    fn from(Source { name, length, sha256 }: Source) -> Self {
-        Self { name, length, sha256: hex(&sha256) }
-    }
-}
-
-impl<'a> Row<'a> {
-    fn new(micromap: &BundledMicromap<'a>) -> Self {
-        let histogram = micromap.usage_counts().map(|usage| UsageRow {
-            level: usage.subdivision_level.get(),
-            format: usage.format.value(),
-            count: usage.count,
-        });
-        Self {
-            name: micromap.name,
-            array_bytes: micromap.array.len(),
-            micromap_triangles: micromap.triangles().len(),
-            triangles: micromap.indices().len(),
-            special: micromap.indices().filter(|index| *index < 0).count(),
-            histogram: histogram.collect(),
-            sources: micromap.sources().map(SourceRow::from).collect(),
-        }
-    }
-
-    fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
-        let Self { name, array_bytes, micromap_triangles, triangles, special, histogram, sources } = self;
-        writeln!(out, "{name}")?;
-        writeln!(out, "  {triangles} triangles, {special} of them with a special index")?;
-        writeln!(out, "  {micromap_triangles} micromap triangles in {array_bytes} bytes")?;
-        for UsageRow { level, format, count } in histogram {
-            writeln!(out, "    {count} of level {level}, {}-state", 2 * format)?;
-        }
-        for SourceRow { name, length, sha256 } in sources {
-            writeln!(out, "  from {name}, {length} bytes, SHA-256 {sha256}")?;
-        }
-        Ok(())
-    }
-}
-
-fn list(path: &Path, format: Format) -> Result<Outcome, CliError> {
-    let bytes = output::read(path)?;
-    let bundle = read(path, &bytes)?;
-    let rows: Vec<_> = bundle.micromaps.iter().map(Row::new).collect();
-    match format {
-        Format::Text => output::print(|out| rows.iter().try_for_each(|row| row.print(out)))?,
-        Format::Json => output::print_json(&rows)?,
-    }
-    Ok(Outcome::Clean)
-}
-
 /// Prints findings; none is what was hoped for.
 fn report(findings: &[String], none: &str, format: Format) -> Result<Outcome, CliError> {
     match format {
@@ -177,7 +121,11 @@ fn report(findings: &[String], none: &str, format: Format) -> Result<Outcome, Cl
 }
 
 fn verify(args: &VerifyArgs, format: Format) -> Result<Outcome, CliError> {
-    let bytes = output::read(&args.file)?;
+    let none = "everything fits";
+    let bytes = match load(&args.file) {
+        Err(CliError::Bundle { source, .. }) => return report(&[source.to_string()], none, format),
+        bytes => bytes?,
+    };
     let mut findings = Vec::new();
     match Bundle::read(&bytes, Checksums::Verify) {
         Err(error) => findings.push(error.to_string()),
@@ -188,22 +136,25 @@ fn verify(args: &VerifyArgs, format: Format) -> Result<Outcome, CliError> {
                 }
                 let Some(folder) = &args.sources else { continue };
                 for source in micromap.sources() {
-                    let Some(name) = unpack::file_name(&source.name) else {
-                        findings.push(format!("{}: source \"{}\" is no file name", micromap.name, source.name));
+                    let name = &source.name;
+                    let plain: Option<PathBuf> = name.split('/').map(unpack::file_name).collect();
+                    let Some(path) = plain else {
+                        findings.push(format!("{}: source {name:?} is no path in a folder", micromap.name));
                         continue;
                     };
-                    if pack::source(&folder.join(name))? != source {
-                        findings.push(format!("{}: source \"{name}\" has changed", micromap.name));
+                    let found = pack::source(&folder.join(path))?;
+                    if (found.length, found.sha256) != (source.length, source.sha256) {
+                        findings.push(format!("{}: source {name:?} has changed", micromap.name));
                     }
                 }
             }
         }
     }
-    report(&findings, "everything fits", format)
+    report(&findings, none, format)
 }
 
-fn diff(a: &Path, b: &Path, format: Format) -> Result<Outcome, CliError> {
-    let (a_bytes, b_bytes) = (output::read(a)?, output::read(b)?);
+pub(crate) fn diff(a: &Path, b: &Path, format: Format) -> Result<Outcome, CliError> {
+    let (a_bytes, b_bytes) = (load(a)?, load(b)?);
     let (a, b) = (read(a, &a_bytes)?, read(b, &b_bytes)?);
     let mut others: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for micromap in b.micromaps.iter().rev() {
@@ -260,7 +211,7 @@ fn differences(a: &BundledMicromap<'_>, b: &BundledMicromap<'_>, findings: &mut 
 
 const HELP: &str = "\
 Examples:
-  omm bake model.glb --out baked
+  omm bake model.glb -o model.omm
   omm bundle pack baked -o model.omm --source model.glb
   omm bundle list model.omm
   omm bundle verify model.omm

@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::{bake, blob, bundle, check, curve, demo, diff, explain, inspect, rules, run};
+use crate::{bake, blob, bundle, check, curve, demo, diff, explain, inspect, render, rules, run};
 
 /// Opacity micromaps: bake them, look into them, follow the bird curve, watch them save any-hit calls.
 #[derive(Debug, Parser)]
@@ -30,6 +30,8 @@ pub(crate) enum Format {
 pub(crate) enum Command {
     /// The whole path from an alpha texture to traced rays, as a summary and two pictures.
     Demo(demo::DemoArgs),
+    /// Pictures of a scene, with and without opacity micromaps.
+    Render(render::RenderArgs),
     /// Bake opacity micromaps for a glTF file or a job file.
     Bake(bake::BakeArgs),
     /// Follow the bird curve: barycentrics to index and back.
@@ -56,6 +58,7 @@ const HELP: &str = "\
 Examples:
   omm demo --out out                      see what opacity micromaps do
   omm bake model.glb --out baked          micromaps for every alpha-masked primitive
+  omm render --compare --out render.png   the same picture, fewer any-hit calls
   omm curve index --level 3 0.25 0.6      which microtriangle holds this point
   omm inspect --format json blas.blob     the header of a serialized structure
   omm check array --array a.bin --desc d.bin --index i.bin

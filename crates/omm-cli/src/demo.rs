@@ -3,15 +3,9 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use image::{ImageFormat, Rgb, RgbImage};
-use omm_bake::bake::{self, BakeOutput};
-use omm_bake::level::LevelChoice;
-use omm_bake::options::{BakeInput, BakeOptions};
-use omm_bake::picture;
-use omm_bake::sampler::{AddressMode, Filter, Sampler};
-use omm_bake::surface::Surface;
-use omm_bake::texture::Texture;
+use omm_bake::{BakeOptions, LevelChoice, picture};
 use omm_model::level::SubdivisionLevel;
+use omm_render::{Baked, Mode, PictureOptions, RenderError, Tracer, garden, paper};
 use omm_trace::Scene;
 use serde::Serialize;
 
@@ -21,11 +15,8 @@ use crate::output::{self, OutputSet};
 use crate::progress::Progress;
 
 mod devices;
-mod fern;
-mod heat;
-mod random;
-mod render;
-mod scene;
+
+use devices::Path;
 
 /// Arguments of `omm demo`.
 #[derive(Debug, clap::Args)]
@@ -50,7 +41,10 @@ Exit status:
   2  could not run";
 
 /// The finest level that the demo bakes.
-const LEVEL: u32 = 7;
+pub(crate) const LEVEL: SubdivisionLevel = match SubdivisionLevel::new(7) {
+    Ok(level) => level,
+    Err(_) => SubdivisionLevel::MAX,
+};
 
 /// What happened: `summary.json`.
 #[derive(Debug, Serialize)]
@@ -61,7 +55,7 @@ struct Summary {
     known_fraction: f64,
     /// Bytes of the baked array.
     array_bytes: u64,
-    /// Bytes of the micromap as built.
+    /// Bytes of the micromap as path.
     micromap_bytes: u64,
     /// Bytes of the micromap as compacted.
     compacted_bytes: u64,
@@ -91,43 +85,44 @@ struct Summary {
     trace_seconds_with: f64,
 }
 
+/// Pixels of a picture, across and down.
+const SIZE: [u32; 2] = [960, 540];
+
 /// Runs the demo.
 pub(crate) fn run(args: &DemoArgs, format: Format) -> Result<Outcome, CliError> {
-    let texture = Texture::unorm8(fern::SIZE, fern::SIZE, fern::alpha()).map_err(CliError::demo)?;
-    let plant = scene::plant();
-    let input = BakeInput { texture: &texture, uvs: &plant.uvs, triangles: &plant.triangles };
-    let level = SubdivisionLevel::new(LEVEL).map_err(CliError::demo)?;
-    let sampler = Sampler::new(AddressMode::Clamp, Filter::Linear, 0.0);
-    let options = BakeOptions { level: LevelChoice::Uniform(level), sampler, ..BakeOptions::default() };
+    let scene = garden::garden()?;
+    let options = BakeOptions { level: LevelChoice::Uniform(LEVEL), ..BakeOptions::default() };
 
     let start = Instant::now();
-    let baked = baked(&input, &options)?;
+    let progress = Progress::new("baking", 0);
+    let baked = Baked::new(&scene, &options, &|done, total| progress.set(done, total))?;
+    drop(progress);
     let bake_seconds = start.elapsed().as_secs_f64();
 
-    let built = devices::build(&baked, &plant).map_err(CliError::demo)?;
-    let surface = Surface::new(&texture, sampler, options.alpha_cutoff).map_err(CliError::demo)?;
-    let shading = render::Shading { surface: &surface, plant: &plant };
-    let progress = Progress::new("tracing", 2 * u64::from(render::SIZE[1]));
-    let traced = |view, address| -> Result<_, CliError> {
-        let scene = Scene::load(view, address).map_err(CliError::demo)?;
+    let path = Path::walk(&scene, &baked)?;
+    let progress = Progress::new("tracing", 2 * u64::from(SIZE[1]));
+    let traced = |view, address| -> Result<_, RenderError> {
+        let rays = Scene::load(view, address)?;
+        let tracer = Tracer::new(&rays, &scene)?;
         let start = Instant::now();
-        let picture = render::render(&scene, &shading, &progress).map_err(CliError::demo)?;
-        Ok((picture, start.elapsed().as_secs_f64(), scene.triangle_count()))
+        let options = PictureOptions { size: SIZE, samples: 1, seed: 0 };
+        let picture = tracer.picture(&options, &|rows, _| progress.advance(rows))?;
+        Ok((picture, start.elapsed().as_secs_f64(), rays.triangle_count()))
     };
-    let (without, trace_seconds_without, triangles) = traced(&built.first, built.without)?;
-    let (with, trace_seconds_with, _) = traced(&built.second, built.with)?;
+    let (without, trace_seconds_without, triangles) = traced(&path.first, path.without)?;
+    let (with, trace_seconds_with, _) = traced(&path.second, path.with)?;
     drop(progress);
 
     let summary = Summary {
-        micro_triangles: baked.statistics.array_states.total(),
-        known_fraction: baked.statistics.known_fraction,
-        array_bytes: baked.statistics.array_bytes,
-        micromap_bytes: built.micromap_bytes[0],
-        compacted_bytes: built.micromap_bytes[1],
-        calls: built.calls,
-        reports: built.violations.len() as u64,
-        serialized_bytes: built.serialized_bytes,
-        roundtrip_identical: built.roundtrip_identical,
+        micro_triangles: baked.microtriangles(),
+        known_fraction: baked.known_fraction(),
+        array_bytes: baked.array_bytes(),
+        micromap_bytes: path.micromap_bytes[0],
+        compacted_bytes: path.micromap_bytes[1],
+        calls: path.calls,
+        reports: path.violations.len() as u64,
+        serialized_bytes: path.serialized_bytes,
+        roundtrip_identical: path.roundtrip_identical,
         triangles,
         rays: without.counters.rays,
         any_hit_without: without.counters.any_hit_calls,
@@ -139,10 +134,11 @@ pub(crate) fn run(args: &DemoArgs, format: Format) -> Result<Outcome, CliError> 
     };
 
     let mut files = OutputSet::new(&args.out);
-    let overlay = picture::overlay(&input, sampler, &baked);
-    files.add("overlay.png", |out| overlay.write_to(out, ImageFormat::Png).map_err(std::io::Error::other))?;
-    let pictures = side_by_side(&without, &with);
-    files.add("render.png", |out| pictures.write_to(out, ImageFormat::Png).map_err(std::io::Error::other))?;
+    for ((_, _, (input, own)), output) in scene.bakes(&options).zip(baked.outputs()) {
+        files.add_png("overlay.png", &picture::overlay(&input, own.sampler, output))?;
+    }
+    let rows = [Mode::Shaded, Mode::AnyHit].map(|mode| paper::pair(&without, &with, mode));
+    files.add_png("render.png", &paper::stacked(&rows))?;
     files.add_json("summary.json", &summary)?;
     let written = files.commit()?;
 
@@ -153,32 +149,11 @@ pub(crate) fn run(args: &DemoArgs, format: Format) -> Result<Outcome, CliError> 
             written.iter().try_for_each(|path| writeln!(out, "wrote {}", path.display()))
         })?,
     }
-    for violation in &built.violations {
+    for violation in &path.violations {
         output::complain(&violation.to_string());
     }
     let clean = summary.reports == 0 && summary.images_identical && summary.roundtrip_identical;
     Ok(if clean { Outcome::Clean } else { Outcome::Violations })
-}
-
-/// Bakes with a progress bar.
-fn baked(input: &BakeInput<'_>, options: &BakeOptions) -> Result<BakeOutput, CliError> {
-    let total = bake::estimate(input, options).map_err(CliError::demo)?.microtriangles;
-    let progress = Progress::new("baking", total);
-    bake::bake(input, options, &|step| progress.set(step.done, step.total)).map_err(CliError::demo)
-}
-
-/// Both pictures above, their any-hit calls below on a common scale, which ends where only one pixel in a hundred of the left
-/// picture is beyond it.
-fn side_by_side(without: &render::Picture, with: &render::Picture) -> RgbImage {
-    let [width, height] = render::SIZE;
-    let mut calls = without.any_hit_calls.clone();
-    calls.sort_unstable();
-    let most = calls.get(calls.len() * 99 / 100).copied().unwrap_or(0);
-    RgbImage::from_fn(2 * width, 2 * height, |x, y| {
-        let picture = if x < width { without } else { with };
-        let pixel = (y % height * width + x % width) as usize;
-        Rgb(if y < height { picture.colours[pixel] } else { heat::colour(picture.any_hit_calls[pixel], most) })
-    })
 }
 
 impl Summary {

@@ -59,9 +59,12 @@ pub(crate) enum CliError {
     /// A scenario cannot be read or run.
     #[error("{0}")]
     Scenario(omm_scenario::ScenarioError),
+    /// The scenarios that `omm` carries cannot be read.
+    #[error(transparent)]
+    Library(#[from] omm_scenario::LibraryError),
     /// There is no rule of that identifier.
-    #[error("no rule in scope is, or ends in, {wanted}; `omm rules` lists them")]
-    UnknownRule { wanted: String },
+    #[error("no rule is, or ends in, {wanted}; {}`omm rules` lists them", offered(near))]
+    UnknownRule { wanted: String, near: Vec<String> },
     /// A file is not a whole number of elements long.
     #[error("{}: {size} bytes are not a multiple of {unit}, the size of an element", path.display())]
     CutShort { path: PathBuf, size: u64, unit: u64 },
@@ -71,9 +74,9 @@ pub(crate) enum CliError {
     /// The simulated device had no room.
     #[error("check: {0}")]
     Check(omm_device::app::AppError),
-    /// A step of the demo failed, which has no input that could be at fault.
-    #[error("demo: {0}")]
-    Demo(Box<dyn std::error::Error + Send + Sync>),
+    /// A scene cannot be baked, built or traced.
+    #[error(transparent)]
+    Render(#[from] omm_render::RenderError),
     /// A serialized structure does not decode.
     #[error("{}: {source} (the file has {file_size} bytes)", path.display())]
     Blob { path: PathBuf, file_size: u64, source: omm_serialize::ReadError },
@@ -94,14 +97,18 @@ pub(crate) enum CliError {
     Bake { input: String, source: BakeError },
 }
 
+/// `did you mean A, B or C? `
+fn offered(near: &[String]) -> String {
+    match near {
+        [] => String::new(),
+        [only] => format!("did you mean {only}? "),
+        [first @ .., last] => format!("did you mean {} or {last}? ", first.join(", ")),
+    }
+}
+
 impl CliError {
     /// The exit status of every error.
     pub(crate) const EXIT_CODE: u8 = 2;
-
-    /// For `map_err`: a step of the demo failed.
-    pub(crate) fn demo(error: impl std::error::Error + Send + Sync + 'static) -> Self {
-        Self::Demo(Box::new(error))
-    }
 
     /// For `map_err`: `path` cannot be read.
     pub(crate) fn read(path: &Path) -> impl FnOnce(io::Error) -> Self {

@@ -20,6 +20,7 @@ mod explain;
 mod inspect;
 mod output;
 mod progress;
+mod render;
 mod rules;
 mod run;
 mod watch;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     let Cli { format, command } = Cli::parse();
     let result = match command {
         Command::Demo(args) => demo::run(&args, format),
+        Command::Render(args) => render::run(&args, format),
         Command::Bake(args) => bake::run(&args, format),
         Command::Curve(args) => curve::run(&args, format),
         Command::Inspect(args) => inspect::run(&args, format),

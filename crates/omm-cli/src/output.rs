@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use image::{ImageFormat, RgbaImage};
+use image::{ImageBuffer, ImageFormat, PixelWithColorType};
 use serde::Serialize;
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 use crate::error::CliError;
 
@@ -39,10 +39,15 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, CliError> {
 
 /// Whether the regular file at `path` starts with `magic`.
 pub(crate) fn starts_with(path: &Path, magic: &[u8]) -> Result<bool, CliError> {
+    Ok(start(path, magic.len())? == magic)
+}
+
+/// The first bytes of the regular file at `path`, fewer than `size` if it has fewer.
+pub(crate) fn start(path: &Path, size: usize) -> Result<Vec<u8>, CliError> {
     let mut start = Vec::new();
     let (file, _) = open(path)?;
-    file.take(magic.len() as u64).read_to_end(&mut start).map_err(CliError::read(path))?;
-    Ok(start == magic)
+    file.take(size as u64).read_to_end(&mut start).map_err(CliError::read(path))?;
+    Ok(start)
 }
 
 /// The regular file at `path` and its size. Devices and pipes, which may have no end, are refused.
@@ -73,7 +78,8 @@ pub(crate) struct OutputSet {
     folder: PathBuf,
     /// Folders that this set made, outermost first. `None` before the first file.
     made: Option<Vec<PathBuf>>,
-    files: Vec<(PathBuf, NamedTempFile)>,
+    /// Closed, as a process may have few files open at a time.
+    files: Vec<(PathBuf, TempPath)>,
     committed: bool,
 }
 
@@ -117,7 +123,7 @@ impl OutputSet {
             write(&mut writer)?;
             writer.flush()?;
             drop(writer);
-            Ok(file)
+            Ok(file.into_temp_path())
         };
         let file = stage().map_err(CliError::write(&path))?;
         self.files.push((path, file));
@@ -133,7 +139,10 @@ impl OutputSet {
     }
 
     /// Adds a file `name` that holds `image` as a PNG.
-    pub(crate) fn add_png(&mut self, name: &str, image: &RgbaImage) -> Result<(), CliError> {
+    pub(crate) fn add_png<P>(&mut self, name: &str, image: &ImageBuffer<P, Vec<u8>>) -> Result<(), CliError>
+    where
+        P: PixelWithColorType<Subpixel = u8>,
+    {
         self.add(name, |out| image.write_to(out, ImageFormat::Png).map_err(io::Error::other))
     }
 
@@ -229,6 +238,20 @@ mod tests {
         assert_eq!(set.commit().unwrap(), [folder.join("one"), folder.join("two")]);
         assert_eq!(entries(&folder), ["one", "two"]);
         assert_eq!(fs::read(folder.join("two")).unwrap(), b"[\n  2\n]\n");
+    }
+
+    #[test]
+    fn a_set_keeps_no_file_open() {
+        let root = tempfile::tempdir().unwrap();
+        let open = || fs::read_dir("/proc/self/fd").map_or(0, Iterator::count);
+        let mut set = OutputSet::new(root.path());
+        let before = open();
+        for name in 0..500 {
+            set.add(name.to_string(), |_| Ok(())).unwrap();
+        }
+        // Tests beside this one may have opened some meanwhile.
+        assert!(open() < before + 100, "{} files are open", open());
+        assert_eq!(set.commit().unwrap().len(), 500);
     }
 
     #[test]

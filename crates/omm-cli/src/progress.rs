@@ -40,6 +40,12 @@ impl Progress {
         self.show();
     }
 
+    /// `steps` more are done, and `label` says now what is ahead.
+    pub(crate) fn advance_with(&self, steps: u64, label: String) {
+        self.bar.set_message(label);
+        self.advance(steps);
+    }
+
     fn show(&self) {
         if self.bar.is_hidden() && self.since.elapsed() >= PATIENCE && io::stderr().is_terminal() {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());

@@ -3,7 +3,10 @@
 use std::io::Write;
 
 use clap::Args;
-use omm_validate::catalog::{RULES, Rule};
+use clap::builder::PossibleValuesParser;
+use omm_scenario::{Library, Scenario};
+use omm_validate::RuleId;
+use omm_validate::catalog::{RULES, Rule, Status};
 use serde::Serialize;
 
 use crate::cli::Format;
@@ -14,14 +17,14 @@ use crate::output;
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct RulesArgs {
-    /// Only rules of this group, such as khr_opacity_micromap.
-    #[arg(long)]
+    /// Only rules of this group.
+    #[arg(long, value_parser = groups())]
     group: Option<String>,
     /// Only rules on this structure or command, such as VkMicromapBuildInfoEXT; part of the name is enough.
     #[arg(long)]
     object: Option<String>,
-    /// Only rules of this status: checked or structural.
-    #[arg(long)]
+    /// Only rules of this status: those that a function checks, or those that no call can be written down to break.
+    #[arg(long, value_parser = ["checked", "structural"])]
     status: Option<String>,
 }
 
@@ -35,15 +38,23 @@ Exit status:
   0  printed
   2  could not run";
 
+/// The names of the groups.
+fn groups() -> PossibleValuesParser {
+    let mut groups: Vec<_> = RULES.iter().map(|rule| rule.group.name()).collect();
+    groups.sort_unstable();
+    groups.dedup();
+    groups.into()
+}
+
 /// All rules that were asked for.
 #[derive(Serialize)]
-struct List {
-    rules: Vec<Row>,
+struct List<'a> {
+    rules: Vec<Row<'a>>,
 }
 
 /// One rule.
 #[derive(Serialize)]
-struct Row {
+struct Row<'a> {
     vuid: &'static str,
     group: &'static str,
     object: &'static str,
@@ -51,10 +62,12 @@ struct Row {
     status: &'static str,
     /// Why a structural rule cannot be written down as a call.
     reason: Option<&'static str>,
+    /// The scenarios that break the rule, then those that keep it: paths below `spec-tests`.
+    scenarios: Vec<&'a str>,
 }
 
-impl Row {
-    fn new(rule: &'static Rule) -> Self {
+impl<'a> Row<'a> {
+    fn new(rule: &'static Rule, library: &'a Library) -> Self {
         Self {
             vuid: rule.vuid(),
             group: rule.group.name(),
@@ -62,6 +75,7 @@ impl Row {
             kind: rule.kind.name(),
             status: rule.status.name(),
             reason: rule.status.reason(),
+            scenarios: library.about(rule.id).map(Scenario::name).collect(),
         }
     }
 }
@@ -69,20 +83,25 @@ impl Row {
 /// Runs `omm rules`.
 pub(crate) fn run(args: &RulesArgs, format: Format) -> Result<Outcome, CliError> {
     let RulesArgs { group, object, status } = args;
-    let wanted = |row: &Row| {
-        group.as_ref().is_none_or(|group| row.group == group)
-            && object.as_ref().is_none_or(|object| row.object.contains(object))
-            && status.as_ref().is_none_or(|status| row.status == status)
+    let wanted = |rule: &&Rule| {
+        group.as_ref().is_none_or(|group| rule.group.name() == group)
+            && object.as_ref().is_none_or(|object| rule.object().contains(object))
+            && status.as_ref().is_none_or(|status| rule.status.name() == status)
     };
-    let list = List { rules: RULES.iter().map(Row::new).filter(wanted).collect() };
+    let rules: Vec<&Rule> = RULES.iter().filter(wanted).collect();
+    let library = Library::built_in()?;
+    let list = List { rules: rules.iter().map(|rule| Row::new(rule, &library)).collect() };
     match format {
         Format::Json => output::print_json(&list)?,
-        Format::Text => output::print(|out| list.print(out))?,
+        Format::Text => output::print(|out| {
+            list.print(out)?;
+            writeln!(out, "{}", summary(&rules))
+        })?,
     }
     Ok(Outcome::Clean)
 }
 
-impl List {
+impl List<'_> {
     fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
         for Row { vuid, kind, status, reason, .. } in &self.rules {
             match reason {
@@ -90,8 +109,24 @@ impl List {
                 None => writeln!(out, "{status:<10}  {kind:<8}  {vuid}")?,
             }
         }
-        let structural = self.rules.iter().filter(|row| row.reason.is_some()).count();
-        let all = self.rules.len();
-        writeln!(out, "{all} rules: {} checked, {structural} structural", all - structural)
+        Ok(())
     }
+}
+
+/// How many rules there are of which kind.
+fn summary(rules: &[&Rule]) -> String {
+    let (in_scope, others): (Vec<&Rule>, Vec<&Rule>) = rules.iter().copied().partition(|rule| rule.is_in_scope());
+    let all = in_scope.len();
+    let checked = in_scope.iter().filter(|rule| rule.status == Status::Checked).count();
+    let without = match RuleId::ALL.iter().filter(|id| id.rule().is_none()).count() {
+        0 => "none".to_owned(),
+        count => count.to_string(),
+    };
+    let structural = all - checked;
+    let mut text =
+        format!("{all} rules in scope: {checked} checked, {structural} structural, {without} without a verdict");
+    if !others.is_empty() {
+        text += &format!("; and {} beyond it", others.len());
+    }
+    text
 }

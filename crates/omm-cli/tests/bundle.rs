@@ -4,6 +4,8 @@
 #[allow(dead_code)]
 mod common;
 
+use std::fs;
+
 use common::{Folder, glb, omm, quad};
 
 #[test]
@@ -56,6 +58,48 @@ fn a_bake_goes_into_a_bundle_and_comes_out_again() {
     folder.write("again/leaf_prim0.index.bin", 99_i32.to_le_bytes());
     assert!(pack("again", "c.omm", &[]).error().contains("found 99, required at most "));
     assert!(!folder.path("c.omm").exists());
+}
+
+#[test]
+fn a_bake_writes_the_bundle_that_its_folder_packs_to() {
+    let folder = Folder::new();
+    let (mut json, binary) = quad();
+    fs::create_dir(folder.path("data")).unwrap();
+    folder.write("data/quad.bin", &binary);
+    json["buffers"][0]["uri"] = "data/quad.bin".into();
+    folder.write("quad.gltf", json.to_string());
+    folder.write("quad.glb", glb(&quad().0, &binary));
+    let path = |name: &str| folder.path(name).to_str().unwrap().to_owned();
+
+    folder.bake("quad.glb", &["--level", "3"]).clean();
+    omm(["bundle", "pack", &path("out"), "-o", &path("packed.omm"), "--source", &path("quad.glb")]).clean();
+    let baked = omm(["bake", &path("quad.glb"), "-o", &path("baked.omm"), "--level", "3"]);
+    assert!(baked.clean().ends_with(&format!("written to {}\n", path("baked.omm"))), "{baked:?}");
+    assert_eq!(folder.read("baked.omm"), folder.read("packed.omm"));
+
+    // Every file that was read is a source.
+    omm(["bake", &path("quad.gltf"), "-o", &path("parts.omm")]).clean();
+    let list = omm(["bundle", "list", "--format", "json", &path("parts.omm")]).json();
+    let names: Vec<_> = list[0]["sources"].as_array().unwrap().iter().map(|source| &source["name"]).collect();
+    assert_eq!(names, ["quad.gltf", "data/quad.bin"]);
+    let verify = ["bundle", "verify", &path("parts.omm"), "--sources", &path("")];
+    assert_eq!(omm(verify).clean(), "everything fits\n");
+    folder.write("data/quad.bin", b"other");
+    assert_eq!(omm(verify).stdout, "leaf_prim0: source \"data/quad.bin\" has changed\n");
+
+    // What cannot be baked leaves no bundle, and neither does a bundle that cannot be written.
+    let before = names_in(&folder);
+    omm(["bake", &path("quad.gltf"), "-o", &path("bad.omm")]).error();
+    omm(["bake", &path("quad.glb"), "-o", &path("data")]).error();
+    assert_eq!(names_in(&folder), before);
+    for more in [&["--out", "x"][..], &["--picture"]] {
+        let run = omm([&["bake", &path("quad.glb"), "-o", &path("bad.omm")], more].concat());
+        assert!(run.status == 2 && run.stderr.contains("cannot be used with"), "{run:?}");
+    }
+}
+
+fn names_in(folder: &Folder) -> Vec<String> {
+    common::names(&folder.path(""))
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod common;
 
 use std::fs;
 
-use common::{Folder, Run, golden, omm};
+use common::{Folder, Run, glb, golden, omm, quad};
 use serde_json::{Value, json};
 
 fn inspect(folder: &Folder) -> Run {
@@ -71,6 +71,75 @@ fn handles_and_blocks_are_listed() {
     let text = omm(["inspect".as_ref(), folder.path("b.blob").as_os_str()]);
     assert!(text.clean().contains("driver UUID         aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\n"), "{text:?}");
     assert!(text.clean().contains("0x0000000000001234\n"), "{text:?}");
+}
+
+#[test]
+fn unknown_blocks_and_big_endian_data_are_named() {
+    let folder = Folder::new();
+    let mut bytes = vec![0xaa; 32];
+    for field in [88, 4096, 0xffff_ffff_0000_0002_u64] {
+        bytes.extend(field.to_be_bytes());
+    }
+    for (block_type, count) in [(7_u32, 0_u64), (0, 0)] {
+        bytes.extend(block_type.to_be_bytes());
+        bytes.extend([0; 4]);
+        bytes.extend(count.to_be_bytes());
+    }
+    folder.write("b.blob", bytes);
+    let run = omm(["inspect".as_ref(), folder.path("b.blob").as_os_str()]);
+    for line in ["byte order          big-endian", "type 7 (unknown, kept as it is)", "type 0 (opacity micromaps)"] {
+        assert!(run.clean().contains(line), "{line}: {run:?}");
+    }
+}
+
+#[test]
+fn bundles_are_summed_up_and_dumped() {
+    let folder = Folder::new();
+    let (json, binary) = quad();
+    folder.write("quad.glb", glb(&json, &binary));
+    let (glb, file) = (folder.path("quad.glb"), folder.path("quad.omm"));
+    let (glb, file) = (glb.to_str().unwrap(), file.to_str().unwrap());
+    omm(["bake", glb, "-o", file, "--level", "3", "--no-special-indices"]).clean();
+    let run = omm(["inspect", file]);
+    assert!(run.clean().contains("bytes: a bundle of version 1, 1 micromaps\nleaf_prim0\n"), "{run:?}");
+    let found = omm(["inspect", "--format", "json", file]).json();
+    assert_eq!((&found["kind"], &found["version"]), (&json!("bundle"), &json!(1)));
+    let micromap = &found["micromaps"][0];
+    assert_eq!(micromap["histogram"], json!([{ "level": 3, "format": 2, "count": 2 }]));
+    assert_eq!(micromap["index_histogram"], micromap["histogram"]);
+    assert_eq!(micromap["settings"]["special_indices"], json!(false));
+    assert_eq!(micromap["statistics"]["triangles"], json!(2));
+    let dump = omm(["inspect", "--dump", file]);
+    assert!(dump.clean().contains("| micromaps[0].triangles[1]: data at 16, level 3, 4-state\n"), "{dump:?}");
+    let size = folder.read("quad.omm").len();
+    assert!(dump.stdout.ends_with(&format!("{size:08x}: end; every byte of {size} was named: true\n")), "{dump:?}");
+    assert_eq!(omm(["diff", file, file]).clean(), "no difference\n");
+}
+
+/// Files that are much larger than memory should be used for, without holes filled.
+#[test]
+fn large_files_that_lie_are_refused_at_their_start() {
+    let folder = Folder::new();
+    let path = folder.path("b.blob");
+    let refused = |start: &[u8], verb: &[&str]| {
+        fs::write(&path, start).unwrap();
+        let file = fs::OpenOptions::new().write(true).open(&path).unwrap();
+        // More than any machine's memory.
+        file.set_len(1 << 40).unwrap();
+        let arguments = verb.iter().map(std::ffi::OsStr::new).chain([path.as_os_str()]);
+        omm(arguments).error().to_owned()
+    };
+    let found = refused(&[], &["inspect"]);
+    assert!(found.contains("serialized_size at byte 32: found 0, required at least 56"), "{found}");
+    let found = refused(&blob(1 << 40, 1 << 38, &[]), &["inspect"]);
+    assert!(found.contains("handle_count at byte 48: found 274877906944, required at most 137438953465"), "{found}");
+    let found = refused(&blob(1 << 40, 1 << 38, &[]), &["blob", "relocate", "--list"]);
+    assert!(found.contains("handle_count at byte 48: "), "{found}");
+    let found = refused(b"ommbundl\x02\0\0\0", &["inspect"]);
+    assert!(found.contains("version at byte 8: found 2, "), "{found}");
+    let found = refused(b"ommbundl\x01\0\0\0\x01\0\0\0\0\0\0\0", &["bundle", "list"]);
+    assert!(found.contains("sections at byte 12: found 1, required a multiple of 9"), "{found}");
+    assert!(refused(b"glTF", &["bundle", "list"]).contains("magic at byte 0: "));
 }
 
 #[test]

@@ -77,6 +77,9 @@ pub enum ReadErrorKind {
         /// The values that have one, in words.
         required: &'static str,
     },
+    /// The numbers are right, but their most significant bytes come first.
+    #[error("the data is big-endian, required little-endian, the order of the simulated device")]
+    BigEndian,
 }
 
 impl ReadError {

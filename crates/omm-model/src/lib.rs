@@ -13,6 +13,7 @@
 //! | [`triangle`], [`usage`] | the checked form of `VkMicromapTriangleKHR` and of usage counts |
 //! | [`profile`] | limits, features, identities, queues and memory types of a device |
 //! | [`memory`] | the one interface through which anybody reads memory at an address |
+//! | `ash` | with the feature of that name: structures of the [ash](https://docs.rs/ash) crate, converted |
 //!
 //! Types under [`vk`] are *raw*: an unknown enumerant or a dangling handle is representable there. Types elsewhere are *checked*:
 //! they are reached by `TryFrom` and cannot be wrong, so what takes them cannot be handed nonsense.
@@ -47,6 +48,8 @@
 //!
 //! [`VK_KHR_opacity_micromap`]: https://docs.vulkan.org/refpages/latest/refpages/source/VK_KHR_opacity_micromap.html
 
+#[cfg(feature = "ash")]
+pub mod ash;
 pub mod call;
 pub mod curve;
 pub mod format;

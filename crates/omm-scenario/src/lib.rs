@@ -36,6 +36,8 @@
 //! assert!(error.help().unwrap().starts_with("did you mean \"triangleArrayStride\"?"));
 //! # Ok::<(), omm_scenario::ScenarioError>(())
 //! ```
+//!
+//! The scenarios under `spec-tests/` are part of the library: [`Library::built_in`] says which of them break or keep a rule.
 
 mod change;
 mod command;
@@ -61,6 +63,7 @@ mod world;
 
 pub use error::ScenarioError;
 pub use library::{Library, LibraryError, files};
+pub use nearest::names_like;
 pub use run::run;
 pub use scenario::Scenario;
-pub use transcript::Transcript;
+pub use transcript::{Finding, Transcript};

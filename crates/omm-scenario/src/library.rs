@@ -26,6 +26,22 @@ pub enum LibraryError {
     Scenario(#[from] ScenarioError),
 }
 
+/// Names and texts of the scenarios under `spec-tests/`; `build.rs` lists them.
+const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/scenarios.rs"));
+
+const INDEX_TYPE_PARAMETER: RuleId = RuleId::AccelerationStructureTrianglesOpacityMicromapKhrIndexTypeParameter;
+
+/// Pairs of rules that the specification makes inseparable: whoever breaks the first breaks the second, too.
+///
+/// The enumerants that `indexType-11570` lists are all that `VkIndexType` has. Both commands that build on the device repeat
+/// the rule on the flags of an instance; a build on the host breaks that one alone.
+const INSEPARABLE: [(RuleId, RuleId); 4] = [
+    (RuleId::IndexType11570, INDEX_TYPE_PARAMETER),
+    (INDEX_TYPE_PARAMETER, RuleId::IndexType11570),
+    (RuleId::InstanceFlags10607, RuleId::InstanceFlags11581),
+    (RuleId::IndirectInstanceFlags10607, RuleId::InstanceFlags11581),
+];
+
 /// The scenarios of a folder, by their paths in it.
 #[derive(Clone, Debug, Default)]
 pub struct Library {
@@ -33,6 +49,15 @@ pub struct Library {
 }
 
 impl Library {
+    /// The scenarios under `spec-tests/` as they were when the library was compiled. No file is needed.
+    ///
+    /// # Errors
+    /// A text that is no scenario; tests show that there is none.
+    pub fn built_in() -> Result<Self, LibraryError> {
+        let read = |(name, text): &(&str, &str)| Ok((PathBuf::from(name), Scenario::parse(name, text)?));
+        Ok(Self { scenarios: BUILT_IN.iter().map(read).collect::<Result<_, ScenarioError>>()? })
+    }
+
     /// Reads every `.ron` file below a folder. Names are paths below it, with slashes on every machine.
     ///
     /// # Errors
@@ -79,10 +104,20 @@ impl Library {
         self.scenarios.values().filter(|scenario| scenario.keeps().contains(&rule)).collect()
     }
 
-    /// The rules that are checked but that no scenario breaks alone, or that none keeps.
+    /// The scenarios about a rule: those that break it, then those that keep it.
+    pub fn about(&self, rule: RuleId) -> impl Iterator<Item = &Scenario> {
+        self.breaking(rule).into_iter().chain(self.keeping(rule))
+    }
+
+    /// The rules that are checked but that no scenario breaks alone, or that none keeps. A rule that cannot be broken without
+    /// another is to be broken with just that one.
     #[must_use]
     pub fn missing(&self) -> Vec<RuleId> {
-        let alone = |rule| self.breaking(rule).first().is_some_and(|scenario| scenario.breaks().len() == 1);
+        let belongs = |rule, broken| rule == broken || INSEPARABLE.contains(&(rule, broken));
+        let alone = |rule| {
+            let breaking = self.breaking(rule);
+            breaking.iter().any(|scenario| scenario.breaks().iter().all(|broken| belongs(rule, *broken)))
+        };
         let checked = RULES.iter().filter(|rule| rule.status == Status::Checked).map(|rule| rule.id);
         checked.filter(|rule| !alone(*rule) || self.keeping(*rule).is_empty()).collect()
     }

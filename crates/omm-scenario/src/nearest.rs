@@ -5,16 +5,40 @@ use std::collections::BTreeSet;
 /// Names listed in a message besides the nearest one.
 const LISTED: usize = 8;
 
-/// A sentence that offers the name nearest to `found`, and lists the others; `None` if there are none.
-pub(crate) fn among<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+/// The names that `found` may have been meant to be, the nearest first.
+///
+/// ```
+/// let commands = ["build", "built", "copy"];
+/// assert_eq!(omm_scenario::names_like("biuld", commands), ["build", "built"]);
+/// assert!(omm_scenario::names_like("serialize", commands).is_empty());
+/// ```
+#[must_use]
+pub fn names_like<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let names = by_distance(found, names);
+    names.into_iter().filter(|(distance, _)| *distance <= tolerance(found)).map(|(_, name)| name).collect()
+}
+
+/// How many letters may be wrong.
+fn tolerance(found: &str) -> usize {
+    2 + found.chars().count() / 3
+}
+
+/// Each name once with its distance from `found`, the nearest first.
+fn by_distance<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(usize, &'a str)> {
     let mut names: Vec<(usize, &str)> = names.into_iter().map(|name| (distance(found, name), name)).collect();
     // The names come in an order that means something; sorting keeps it among equals.
     names.sort_by_key(|(distance, _)| *distance);
     let mut seen = BTreeSet::new();
     names.retain(|(_, name)| seen.insert(*name));
+    names
+}
+
+/// A sentence that offers the name nearest to `found`, and lists the others; `None` if there are none.
+pub(crate) fn among<'a>(found: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let names = by_distance(found, names);
     let (nearest, name) = *names.first()?;
     let mut text = String::new();
-    if nearest <= 2 + found.chars().count() / 3 {
+    if nearest <= tolerance(found) {
         text = format!("did you mean \"{name}\"? ");
     }
     let listed: Vec<_> = names.iter().take(LISTED).map(|(_, name)| format!("\"{name}\"")).collect();

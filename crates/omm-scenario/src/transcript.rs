@@ -14,15 +14,20 @@ pub(crate) enum Outcome {
     Undefined(Box<Undefined>),
 }
 
-/// A rule that a call breaks.
+/// A rule that a call breaks, as the transcript shows it: objects go by their names.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(crate) struct Finding {
+#[non_exhaustive]
+pub struct Finding {
+    /// The rule.
     #[serde(rename = "vuid")]
-    pub(crate) rule: RuleId,
+    pub rule: RuleId,
+    /// The path from the command's parameters to the offending value.
     #[serde(rename = "path")]
-    pub(crate) at: String,
-    pub(crate) found: String,
-    pub(crate) required: String,
+    pub at: String,
+    /// What was found there.
+    pub found: String,
+    /// What was required.
+    pub required: String,
 }
 
 /// One call.
@@ -114,6 +119,12 @@ impl Transcript {
     #[must_use]
     pub fn reported(&self) -> &[RuleId] {
         &self.reported
+    }
+
+    /// What the validator reported, call by call, with the names of the commands.
+    pub fn findings(&self) -> impl Iterator<Item = (&'static str, &Finding)> {
+        let calls = self.given.iter().chain(&self.when).flat_map(|group| &group.calls);
+        calls.flat_map(|call| call.findings.iter().map(|finding| (call.command, finding)))
     }
 
     /// What was expected and not found.

@@ -174,7 +174,7 @@ impl World {
             Outcome::Output(output) => Ok(output),
             // What has a meaning and is only not simulated is there for the validator.
             Outcome::Undefined(undefined) if undefined.is_unsupported() => {
-                self.validator.track(call, &Output::None);
+                self.tell(call, &Output::None);
                 if let Some(record) = self.group.calls.last_mut() {
                     record.is_undefined = false;
                 }
@@ -185,6 +185,11 @@ impl World {
                 Err(node.mistake(format!("this cannot be prepared: {undefined}")))
             }
         }
+    }
+
+    /// Lets the validator know of a call that the device cannot take part in.
+    pub(crate) fn tell(&mut self, call: &Call, output: &Output) {
+        self.validator.track(call, output);
     }
 
     /// A new command buffer that is being recorded.

@@ -76,17 +76,20 @@ fn names_say_what_rule_is_broken_or_kept() {
     }
 }
 
-/// Rules that still have no scenario, one identifier a line, lines with `#` aside. The list may only get shorter.
 #[test]
 fn every_rule_is_broken_by_one_scenario_and_kept_by_another() {
-    let listed = std::fs::read_to_string(folder().join("rules-without-scenarios.txt")).unwrap();
-    let listed: BTreeSet<&str> = listed.lines().filter(|line| !line.starts_with('#') && !line.is_empty()).collect();
-    let library = library();
-    let missing: BTreeSet<&str> = library.missing().into_iter().map(omm_validate::RuleId::vuid).collect();
-    let unlisted: Vec<_> = missing.difference(&listed).collect();
-    let settled: Vec<_> = listed.difference(&missing).collect();
-    assert!(unlisted.is_empty(), "without a scenario that breaks only it and one that keeps it: {unlisted:#?}");
-    assert!(settled.is_empty(), "have their scenarios and can be taken off the list: {settled:#?}");
+    let missing = library().missing();
+    assert!(missing.is_empty(), "without a scenario that breaks only it and one that keeps it: {missing:#?}");
+}
+
+#[test]
+fn the_library_holds_every_scenario() {
+    let (built_in, read) = (Library::built_in().unwrap(), library());
+    assert_eq!(built_in.len(), read.len());
+    for ((path, carried), (file, scenario)) in built_in.iter().zip(read.iter()) {
+        assert_eq!((path, carried.name()), (file, scenario.name()));
+        assert!(carried.text() == scenario.text(), "{} is another text", path.display());
+    }
 }
 
 #[test]

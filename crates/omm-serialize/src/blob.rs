@@ -322,6 +322,12 @@ fn claim(count: u64, item: u64, start: u64, size: u64) -> Result<(), ReadErrorKi
     if count <= limit { Ok(()) } else { Err(ReadErrorKind::Above { found: count, limit }) }
 }
 
+/// Type and number of addresses of the block that begins at `at`, if it is whole.
+pub(crate) fn block_at(bytes: &[u8], order: ByteOrder, at: usize) -> Option<(u32, usize)> {
+    let block = Input { bytes, order, position: at }.block(u64::MAX).ok()?;
+    Some((block.block_type, block.addresses.len()))
+}
+
 fn error(field: &'static str, offset: u64, kind: ReadErrorKind) -> ReadError {
     ReadError { field: field.into(), offset, kind }
 }

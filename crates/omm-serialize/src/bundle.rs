@@ -31,6 +31,7 @@ use crate::{ReadError, ReadErrorKind};
 
 mod codec;
 mod data;
+mod describe;
 mod section;
 
 pub use data::{BundleData, MicromapData, Source};
@@ -38,6 +39,8 @@ pub use section::SectionKind;
 
 /// The first eight bytes of a bundle of any version.
 pub const MAGIC: [u8; 8] = *b"ommbundl";
+/// Bytes of a bundle before its first section.
+pub const START_SIZE: usize = 20;
 /// The version that is written, and the only one that is read: there is none before it.
 pub const VERSION: u32 = 1;
 
@@ -56,6 +59,8 @@ pub enum Checksums {
 pub struct Bundle<'a> {
     /// The micromaps in order.
     pub micromaps: Vec<BundledMicromap<'a>>,
+    /// The whole file.
+    bytes: &'a [u8],
 }
 
 /// One micromap of a bundle.
@@ -100,7 +105,7 @@ impl<'a> Bundle<'a> {
             micromaps.push(micromap.map_err(|error| error.within(format_args!("micromaps[{index}]")))?);
         }
         input.finish()?;
-        Ok(Self { micromaps })
+        Ok(Self { micromaps, bytes })
     }
 
     /// The same as a value that owns its parts.
@@ -145,6 +150,21 @@ impl<'a> BundledMicromap<'a> {
             sources: sources.bytes,
             statistics,
         })
+    }
+
+    /// The bytes of a section.
+    const fn contents(&self, kind: SectionKind) -> &'a [u8] {
+        match kind {
+            SectionKind::Name => self.name.as_bytes(),
+            SectionKind::Array => self.array,
+            SectionKind::Triangles => self.triangles.as_flattened(),
+            SectionKind::Indices => self.indices.as_flattened(),
+            SectionKind::UsageCounts => self.usage_counts.as_flattened(),
+            SectionKind::IndexUsageCounts => self.index_usage_counts.as_flattened(),
+            SectionKind::Settings => self.settings.as_bytes(),
+            SectionKind::Sources => self.sources,
+            SectionKind::Statistics => self.statistics.as_bytes(),
+        }
     }
 
     /// The micromap's triangles: where their data lies in the array, level and format.

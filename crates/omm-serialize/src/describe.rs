@@ -5,6 +5,7 @@ use omm_layout::object::{Field, Object, ObjectHeader};
 use crate::Blob;
 use crate::blob::Count;
 use crate::header::{BLOCK_SIZE, BLOCK_TYPE_OPACITY_MICROMAP};
+use crate::summary::Address;
 
 impl Blob<'_> {
     /// Gives `visit` every field from the first byte to the last: each begins where the one before it ended, and the last ends with
@@ -29,7 +30,7 @@ impl Blob<'_> {
             }
         }
         for (index, handle) in self.handles().enumerate() {
-            field(8, format!("handles[{index}]"), format!("{handle:#018x}"));
+            field(8, format!("handles[{index}]"), Address(handle).to_string());
         }
         for (index, block) in self.blocks().enumerate() {
             let meaning = match block.block_type {
@@ -40,7 +41,7 @@ impl Blob<'_> {
             field(4, format!("blocks[{index}].reserved"), block.reserved.to_string());
             field(8, format!("blocks[{index}].count"), block.addresses().len().to_string());
             for (entry, address) in block.addresses().enumerate() {
-                field(8, format!("blocks[{index}].addresses[{entry}]"), format!("{address:#018x}"));
+                field(8, format!("blocks[{index}].addresses[{entry}]"), Address(address).to_string());
             }
         }
         let size = self.payload().len() as u64;

@@ -4,6 +4,7 @@ use omm_model::profile::Uuid;
 use serde::{Deserialize, Serialize};
 
 use crate::ByteOrder;
+use crate::blob::COUNT_AT;
 
 /// `VK_ACCELERATION_STRUCTURE_SERIALIZED_BLOCK_TYPE_OPACITY_MICROMAP_KHR`: the block's addresses are those of micromaps.
 pub const BLOCK_TYPE_OPACITY_MICROMAP: u32 = 0;
@@ -53,6 +54,15 @@ pub struct Block {
     pub addresses: Vec<u64>,
 }
 
+/// Counts that [`Header::write_claiming`] writes whatever is there.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Claims {
+    /// The 64-bit count of handles or, its high half all ones, of blocks.
+    pub count: Option<u64>,
+    /// For each block in order, its count of addresses. Blocks without an entry tell the truth.
+    pub addresses: Vec<Option<u64>>,
+}
+
 impl References {
     /// Bytes that the handles or blocks take behind the count.
     #[must_use]
@@ -100,6 +110,28 @@ impl Header {
         let mut bytes = Vec::with_capacity(self.size() as usize + payload.len());
         self.write_into(order, &mut bytes);
         bytes.extend_from_slice(payload);
+        bytes
+    }
+
+    /// As [`write`](Self::write), with the counts that `claims` names in the place of the right ones: wrong data on purpose.
+    #[must_use]
+    pub fn write_claiming(&self, claims: &Claims, order: ByteOrder, payload: &[u8]) -> Vec<u8> {
+        let Claims { count, addresses } = claims;
+        let mut bytes = self.write(order, payload);
+        let mut put = |at: usize, claim: Option<u64>| {
+            let place = bytes.get_mut(at..).and_then(<[u8]>::first_chunk_mut::<8>);
+            if let (Some(place), Some(claim)) = (place, claim) {
+                *place = order.u64_bytes(claim);
+            }
+        };
+        put(COUNT_AT as usize, *count);
+        if let References::Blocks(blocks) = &self.references {
+            let mut at = FIXED_SIZE;
+            for (block, claim) in blocks.iter().zip(addresses) {
+                put(at as usize + 8, *claim);
+                at += BLOCK_SIZE + 8 * block.addresses.len() as u64;
+            }
+        }
         bytes
     }
 

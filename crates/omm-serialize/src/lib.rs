@@ -71,7 +71,7 @@ pub use blob::{Blob, Head};
 pub use byte_order::{ByteOrder, DetectedOrder};
 pub use compatibility::compatibility;
 pub use departure::Departure;
-pub use header::{Block, Header, References};
+pub use header::{Block, Claims, Header, References};
 pub use kind::{Certainty, KindGuess};
 pub use object::{deserialize_object, serialize_object, serialized_size};
 pub use omm_layout::error::{ReadError, ReadErrorKind};

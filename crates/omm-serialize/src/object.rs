@@ -61,7 +61,16 @@ fn parts(object: &[u8], body: u64) -> (&[u8], &[u8]) {
 /// # Errors
 /// The first field of header or payload that is not as it should be; offsets are counted from the start of `blob`.
 pub fn deserialize_object(blob: &[u8]) -> Result<Vec<u8>, ReadError> {
-    object_of(&Blob::read(blob, ORDER)?)
+    let read = Blob::read(blob, ORDER).map_err(|error| match Blob::read_detected(blob) {
+        Ok((other, _)) if other.order() != ORDER => other_order(),
+        _ => error,
+    });
+    object_of(&read?)
+}
+
+/// Data that is right, but from a host of the other byte order.
+fn other_order() -> ReadError {
+    ReadError { field: "serialized_size".into(), offset: 32, kind: ReadErrorKind::BigEndian }
 }
 
 impl Blob<'_> {
@@ -76,10 +85,7 @@ impl Blob<'_> {
 
 fn object_of(blob: &Blob<'_>) -> Result<Vec<u8>, ReadError> {
     if blob.order() != ORDER {
-        // The same bytes in the device's order; the sizes say that the data is not its own.
-        let (found, required) = (blob.prefix().serialized_size.swap_bytes(), blob.prefix().serialized_size);
-        let kind = ReadErrorKind::NotEqual { found, required };
-        return Err(ReadError { field: "serialized_size".into(), offset: 32, kind });
+        return Err(other_order());
     }
     let start = blob.header_size();
     let payload = blob.payload();

@@ -1,68 +1,89 @@
 //! What a header says, for people and scripts.
 
-use serde::Serialize;
+use std::fmt::{self, Display};
 
-use crate::{Blob, ByteOrder, KindGuess};
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 
-/// The header of serialized data, ready to be printed or written as JSON.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Summary {
-    /// Lowercase hexadecimal digits.
-    pub driver_uuid: String,
-    /// Lowercase hexadecimal digits.
-    pub compatibility_uuid: String,
-    /// The order in which the numbers of the header were read.
-    pub byte_order: ByteOrder,
-    /// Bytes of header and payload.
-    pub serialized_size: u64,
-    /// Bytes of the acceleration structure that takes the data.
-    pub deserialized_size: u64,
-    /// Number of handles; 0 if there are blocks.
-    pub handle_count: u64,
-    /// The handles, hexadecimal with `0x` and 16 digits.
-    pub handles: Vec<String>,
-    /// The blocks.
-    pub blocks: Vec<BlockSummary>,
-    /// Bytes of the header: where the payload begins.
-    pub header_size: u64,
-    /// What the data is, as far as it shows.
-    pub kind: KindGuess,
+use crate::Blob;
+use crate::blob::BlockView;
+
+/// The header of serialized data, to be written as JSON. Addresses are written one by one: however many there are, it takes no memory.
+///
+/// | field | holds |
+/// |---|---|
+/// | `driver_uuid`, `compatibility_uuid` | lowercase hexadecimal digits |
+/// | `byte_order` | `little` or `big`: how the numbers were read |
+/// | `serialized_size` | bytes of header and payload |
+/// | `deserialized_size` | bytes of the acceleration structure that takes the data |
+/// | `handle_count`, `handles` | the handles, hexadecimal with `0x` and 16 digits; none if there are blocks |
+/// | `blocks` | for each its `type`, `reserved` and `addresses` |
+/// | `header_size` | bytes of the header: where the payload begins |
+/// | `kind` | what the data is, as far as it shows: a [`KindGuess`](crate::KindGuess) |
+#[derive(Clone, Copy, Debug)]
+pub struct Summary<'a>(Blob<'a>);
+
+/// A device address as people write it: `0x` and 16 digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Address(pub u64);
+
+impl Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#018x}", self.0)
+    }
 }
 
-/// One block of the header.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct BlockSummary {
-    /// The type's number.
-    #[serde(rename = "type")]
-    pub block_type: u32,
-    /// The reserved number.
-    pub reserved: u32,
-    /// The addresses, hexadecimal with `0x` and 16 digits.
-    pub addresses: Vec<String>,
+impl Serialize for Address {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 }
 
-impl Blob<'_> {
+/// A sequence that is written item by item.
+struct Sequence<I>(I);
+
+impl<I: Iterator<Item: Serialize> + Clone> Serialize for Sequence<I> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.clone())
+    }
+}
+
+struct Block<'a>(BlockView<'a>);
+
+impl Serialize for Block<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(block) = self;
+        let mut fields = serializer.serialize_struct("Block", 3)?;
+        fields.serialize_field("type", &block.block_type)?;
+        fields.serialize_field("reserved", &block.reserved)?;
+        fields.serialize_field("addresses", &Sequence(block.addresses().map(Address)))?;
+        fields.end()
+    }
+}
+
+impl Serialize for Summary<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(blob) = self;
+        let prefix = blob.prefix();
+        let mut fields = serializer.serialize_struct("Summary", 10)?;
+        fields.serialize_field("driver_uuid", &prefix.driver_uuid.to_string())?;
+        fields.serialize_field("compatibility_uuid", &prefix.compatibility_uuid.to_string())?;
+        fields.serialize_field("byte_order", &blob.order())?;
+        fields.serialize_field("serialized_size", &prefix.serialized_size)?;
+        fields.serialize_field("deserialized_size", &prefix.deserialized_size)?;
+        fields.serialize_field("handle_count", &blob.handles().len())?;
+        fields.serialize_field("handles", &Sequence(blob.handles().map(Address)))?;
+        fields.serialize_field("blocks", &Sequence(blob.blocks().map(Block)))?;
+        fields.serialize_field("header_size", &blob.header_size())?;
+        fields.serialize_field("kind", &blob.kind())?;
+        fields.end()
+    }
+}
+
+impl<'a> Blob<'a> {
     /// What the header says.
     #[must_use]
-    pub fn summary(&self) -> Summary {
-        let address = |address: u64| format!("{address:#018x}");
-        let prefix = self.prefix();
-        let block = |block: crate::blob::BlockView<'_>| BlockSummary {
-            block_type: block.block_type,
-            reserved: block.reserved,
-            addresses: block.addresses().map(address).collect(),
-        };
-        Summary {
-            driver_uuid: prefix.driver_uuid.to_string(),
-            compatibility_uuid: prefix.compatibility_uuid.to_string(),
-            byte_order: self.order(),
-            serialized_size: prefix.serialized_size,
-            deserialized_size: prefix.deserialized_size,
-            handle_count: self.handles().len() as u64,
-            handles: self.handles().map(address).collect(),
-            blocks: self.blocks().map(block).collect(),
-            header_size: self.header_size(),
-            kind: self.kind(),
-        }
+    pub const fn summary(&self) -> Summary<'a> {
+        Summary(*self)
     }
 }

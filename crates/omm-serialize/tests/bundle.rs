@@ -117,6 +117,36 @@ fn lies_are_named() {
     assert!(error(&bytes).starts_with("sections at byte 12: "));
 }
 
+#[test]
+fn every_byte_has_a_name() {
+    let bytes = data().write();
+    let bundle = Bundle::read(&bytes, Checksums::Verify).unwrap();
+    let (mut end, mut names, mut lines) = (0, Vec::new(), Vec::new());
+    bundle.describe(&mut |field| {
+        assert!(field.offset == end && field.size > 0, "{field:?}");
+        end += field.size;
+        lines.push(format!("{}: {}", field.name, field.value));
+        names.push(field.name);
+    });
+    assert_eq!(end, bytes.len() as u64);
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), lines.len(), "names are unique");
+    for line in [
+        "sections: 18, 9 for each micromap",
+        "micromaps[0].name: \"leaf\"",
+        "micromaps[0].array: packed elements",
+        "micromaps[0].triangles[1]: data at 1, level 3, 2-state",
+        "micromaps[0].indices[1]: triangles[0]",
+        "micromaps[0].indices[4]: -4 (FullyUnknownOpaque)",
+        "micromaps[0].index_usage_counts[0]: 2 of level 3, 2-state",
+        "micromaps[0].sources[0].length: 77 bytes",
+        "micromaps[1].statistics.length: 0 bytes",
+    ] {
+        assert!(lines.iter().any(|found| found == line), "{line} in {lines:#?}");
+    }
+}
+
 /// The same file as types of `wincode`, which shares nothing with our reader.
 mod wire {
     use wincode::{SchemaRead, SchemaWrite};

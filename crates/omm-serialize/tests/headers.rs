@@ -4,7 +4,7 @@
 use omm_model::profile::Uuid;
 use omm_serialize::header::BLOCK_TYPE_OPACITY_MICROMAP;
 use omm_serialize::{
-    Blob, Block, ByteOrder, DetectedOrder, Header, ReadErrorKind, References, byte_order, replace_references,
+    Blob, Block, ByteOrder, Claims, DetectedOrder, Header, ReadErrorKind, References, byte_order, replace_references,
 };
 use proptest::prelude::*;
 
@@ -133,6 +133,35 @@ fn claims_are_refused_by_name_and_offset() {
         text(&[u64::MAX, 0, blocks(1), 0, u64::MAX / 8 - 9], 80),
         "blocks[0].addresses at byte 72: 18446744073709551536 bytes are needed, 8 are there"
     );
+}
+
+#[test]
+fn wrong_counts_can_be_written() {
+    for order in ORDERS {
+        let block = |addresses: &[u64]| Block { block_type: 0, reserved: 0, addresses: addresses.to_vec() };
+        let references = References::Blocks(vec![block(&[1, 2]), block(&[3])]);
+        let header = Header::for_payload(Uuid::default(), Uuid::default(), 0, references, 4);
+        let error = |claims: Claims| {
+            let bytes = header.write_claiming(&claims, order, b"body");
+            Blob::read(&bytes, order).unwrap_err().to_string()
+        };
+        assert_eq!(header.write_claiming(&Claims::default(), order, b"body"), header.write(order, b"body"));
+        let addresses = vec![None, Some(9)];
+        assert_eq!(
+            error(Claims { addresses, ..Claims::default() }),
+            "blocks[1].count at byte 96: found 9, required at most 1"
+        );
+        let count = Some(0xffff_ffff_ffff_ffff);
+        assert_eq!(
+            error(Claims { count, ..Claims::default() }),
+            "block_count at byte 48: found 4294967295, required at most 3"
+        );
+        let count = Some(8);
+        assert_eq!(
+            error(Claims { count, ..Claims::default() }),
+            "handle_count at byte 48: found 8, required at most 7"
+        );
+    }
 }
 
 #[test]

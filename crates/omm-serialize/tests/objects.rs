@@ -150,6 +150,23 @@ fn contradictions_are_named() {
 }
 
 #[test]
+fn data_of_the_other_byte_order_is_called_that() {
+    let expected = "serialized_size at byte 32: the data is big-endian, required little-endian, the order of the \
+                    simulated device";
+    for object in [micromap(1), blas(&[8, 9]), tlas(&[7, 0])] {
+        let data = serialize(&object);
+        let blob = Blob::read(&data, LITTLE).unwrap();
+        let swapped = blob.header().write(ByteOrder::Big, blob.payload());
+        assert_eq!(deserialize_object(&swapped).unwrap_err().to_string(), expected);
+        let blob = Blob::read(&swapped, ByteOrder::Big).unwrap();
+        assert_eq!(blob.to_object().unwrap_err().to_string(), expected);
+        // What is wrong in either order is said of ours.
+        let error = deserialize_object(&swapped[..swapped.len() - 1]).unwrap_err();
+        assert_ne!(error.to_string(), expected);
+    }
+}
+
+#[test]
 fn a_payload_that_only_looks_like_ours_is_likely_at_best() {
     let mut data = serialize(&micromap(1));
     data[56 + 12] = 9;

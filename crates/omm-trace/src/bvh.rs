@@ -16,6 +16,8 @@
 
 use std::ops::Range;
 
+use glam::Vec4;
+
 mod build;
 mod slab;
 
@@ -47,7 +49,7 @@ struct Node {
 }
 
 /// Two boxes in the unit of a tree: for each axis both lower ends, then both upper ends.
-pub(crate) type Planes = [[f32; 4]; 3];
+pub(crate) type Planes = [Vec4; 3];
 
 /// Two nodes and their boxes.
 #[derive(Clone, Copy, Debug)]

@@ -82,6 +82,14 @@ impl Rule {
         self.id.vuid()
     }
 
+    /// Whether the rule is one of those that the catalog promises to hold without a gap: those of both micromap extensions, of
+    /// deferred operations and of acceleration structures on ranges of addresses, and those of `VK_KHR_acceleration_structure`
+    /// that speak of micromaps. The others are here because something in scope depends on them, or are our own.
+    #[must_use]
+    pub const fn is_in_scope(&self) -> bool {
+        !matches!(self.kind, Kind::Own) && !matches!(self.id, RuleId::Type03654 | RuleId::Flags03796)
+    }
+
     /// The structure or command that the rule belongs to.
     #[must_use]
     pub fn object(&self) -> &'static str {

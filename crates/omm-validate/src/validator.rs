@@ -46,7 +46,8 @@ impl Validator {
     /// buffers before you record builds that read them, or check the call again when it is submitted. Memory that cannot be read
     /// is passed over without a word; with [`NoMemory`](omm_model::memory::NoMemory) no rule on contents is checked.
     ///
-    /// Any call can be checked, however wrong; where nothing is wrong nothing is allocated.
+    /// Any call can be checked, however wrong; where nothing is wrong nothing is allocated. A submission is different: it is
+    /// judged on a copy of what was tracked, on which its commands are carried out.
     #[must_use]
     pub fn check(&self, call: &Call, memory: &dyn MemoryView) -> Report {
         let mut report = Report::default();

@@ -73,7 +73,7 @@ impl Flags {
     }
 }
 
-/// Names joined by ` | `, what has no name as a hexadecimal number, `0` for none.
+/// Names joined by ` | `, what has no name as a hexadecimal number, `no flags` where no bit is set.
 impl fmt::Display for Flags {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut rest = self.bits;
@@ -87,7 +87,7 @@ impl fmt::Display for Flags {
             }
         }
         match rest {
-            0 if separator.is_empty() => f.write_str("0"),
+            0 if separator.is_empty() => f.write_str("no flags"),
             0 => Ok(()),
             _ => write!(f, "{separator}{rest:#x}"),
         }
@@ -177,7 +177,7 @@ mod tests {
         assert_eq!(text(vk::IndexType::UINT8), "VK_INDEX_TYPE_UINT8");
         assert_eq!(text(vk::IndexType(-3)), "VkIndexType(-3)");
         let text = |bits| Flags::from(vk::GeometryFlags::from_bits_retain(bits)).to_string();
-        assert_eq!(text(0), "0");
+        assert_eq!(text(0), "no flags");
         assert_eq!(text(0x10), "0x10");
         assert_eq!(text(0x101), "VK_GEOMETRY_OPAQUE_BIT_KHR | 0x100");
         let flags = vk::BuildAccelerationStructureFlags::ALLOW_OPACITY_MICROMAP_UPDATE;

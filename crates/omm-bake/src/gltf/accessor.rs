@@ -72,21 +72,31 @@ impl Elements {
         format!("{:?} {normalized}{:?}", self.components, self.component)
     }
 
-    /// The elements as pairs of floats; `None` if they are not pairs or their type is not one for coordinates.
+    /// The elements as pairs of floats, if they are pairs and their type is one for coordinates.
     ///
     /// Integers that are not normalized count as they are (`KHR_mesh_quantization`).
     pub(super) fn pairs(&self) -> Result<Vec<[f32; 2]>, GltfErrorKind> {
-        if self.components != Type::Vec2 || self.component == ComponentType::U32 {
-            let required = "VEC2 of F32 or of 8-bit or 16-bit integers";
+        self.coordinates(Type::Vec2, "VEC2 of F32 or of 8-bit or 16-bit integers")
+    }
+
+    /// The elements as triples of floats, likewise.
+    pub(super) fn triples(&self) -> Result<Vec<[f32; 3]>, GltfErrorKind> {
+        self.coordinates(Type::Vec3, "VEC3 of F32 or of 8-bit or 16-bit integers")
+    }
+
+    fn coordinates<const N: usize>(
+        &self,
+        components: Type,
+        required: &'static str,
+    ) -> Result<Vec<[f32; N]>, GltfErrorKind> {
+        if self.components != components || self.component == ComponentType::U32 {
             return Err(GltfErrorKind::AccessorType { found: self.kind(), required });
         }
         let size = self.component.size();
         let float = |bytes: &[u8]| float(self.component, self.normalized, bytes);
-        let pair = |element: &[u8]| {
-            let (u, v) = element.split_at_checked(size).unwrap_or_default();
-            [float(u), float(v)]
-        };
-        Ok(self.bytes.chunks_exact(2 * size).map(pair).collect())
+        let element =
+            |bytes: &[u8]| std::array::from_fn(|at| float(bytes.get(at * size..(at + 1) * size).unwrap_or_default()));
+        Ok(self.bytes.chunks_exact(N * size).map(element).collect())
     }
 
     /// The elements as vertex indices.

@@ -64,6 +64,18 @@ impl Container {
         Ok(())
     }
 
+    /// This file, and those that the URIs of its buffers and these URIs of images name, each once.
+    pub(super) fn files<'a>(&'a self, images: impl Iterator<Item = &'a str>) -> Vec<PathBuf> {
+        let buffers = self.root.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+        let mut files = vec![self.file.clone()];
+        for file in buffers.chain(images).filter_map(|uri| uri::file(&self.file, uri)) {
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        files
+    }
+
     /// The error `kind` at `at` in this file.
     pub(super) fn error(&self, at: impl Into<String>, kind: GltfErrorKind) -> GltfError {
         GltfError::new(&self.file, at, kind)

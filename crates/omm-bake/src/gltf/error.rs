@@ -64,6 +64,18 @@ pub enum GltfErrorKind {
     /// No primitive has a material whose `alphaMode` is `MASK`.
     #[error("no primitive has a material with alphaMode MASK, so there is nothing to bake")]
     NothingToBake,
+    /// The scene places no triangles.
+    #[error("the scene places no triangles, so there is nothing to show")]
+    NothingToShow,
+    /// A node is in the tree of nodes twice.
+    #[error("the node is its own ancestor, or has several parents")]
+    NodeTwice,
+    /// A node's transform leaves the numbers.
+    #[error("the transform of the node is not finite")]
+    Transform,
+    /// The vertices have no positions.
+    #[error("the primitive has no POSITION")]
+    NoPositions,
     /// An index points past the end of an array of the file.
     #[error("index {index} is out of range: there are {count}")]
     Index {

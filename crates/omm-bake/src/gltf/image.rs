@@ -4,7 +4,7 @@ use std::io::Cursor;
 
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
-use image::{DynamicImage, ImageDecoder, ImageError};
+use image::{DynamicImage, ImageDecoder, ImageError, RgbImage};
 
 use super::error::GltfErrorKind;
 use crate::texture::Texture;
@@ -13,11 +13,7 @@ use crate::texture::Texture;
 ///
 /// 16-bit alpha becomes the `f32` nearest to the value divided by 65535.
 pub(super) fn alpha(bytes: &[u8]) -> Result<Texture, GltfErrorKind> {
-    let image = match bytes {
-        [0x89, b'P', b'N', b'G', ..] => decode(PngDecoder::new(Cursor::new(bytes)), bytes, png_can_hold),
-        [0xff, 0xd8, 0xff, ..] => decode(JpegDecoder::new(Cursor::new(bytes)), bytes, jpeg_can_hold),
-        _ => return Err(GltfErrorKind::ImageFormat { start: bytes.iter().take(8).copied().collect() }),
-    }?;
+    let image = read(bytes)?;
     let (width, height) = (image.width(), image.height());
     let texture = match image {
         DynamicImage::ImageRgba8(image) => {
@@ -35,6 +31,19 @@ pub(super) fn alpha(bytes: &[u8]) -> Result<Texture, GltfErrorKind> {
         opaque => Texture::unorm8(width, height, vec![255; opaque.width() as usize * opaque.height() as usize]),
     };
     Ok(texture?)
+}
+
+/// The colours of an image file, 8 bits a channel.
+pub(super) fn colours(bytes: &[u8]) -> Result<RgbImage, GltfErrorKind> {
+    Ok(read(bytes)?.into_rgb8())
+}
+
+fn read(bytes: &[u8]) -> Result<DynamicImage, GltfErrorKind> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => decode(PngDecoder::new(Cursor::new(bytes)), bytes, png_can_hold),
+        [0xff, 0xd8, 0xff, ..] => decode(JpegDecoder::new(Cursor::new(bytes)), bytes, jpeg_can_hold),
+        _ => Err(GltfErrorKind::ImageFormat { start: bytes.iter().take(8).copied().collect() }),
+    }
 }
 
 fn unorm16(value: u16) -> f32 {

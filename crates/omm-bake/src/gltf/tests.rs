@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::*;
 
 /// A quad of two triangles with a 4 x 4 texture whose alpha is 16 times the texel's number.
-fn quad() -> (Value, Vec<u8>) {
+pub(super) fn quad() -> (Value, Vec<u8>) {
     let uvs = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0_f32]];
     let mut binary: Vec<u8> = uvs.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
     binary.extend([0, 1, 2, 2, 1, 3_u16].iter().flat_map(|x| x.to_le_bytes()));
@@ -40,7 +40,7 @@ fn quad() -> (Value, Vec<u8>) {
     (json, binary)
 }
 
-fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
+pub(super) fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
     let json = json.to_string().into_bytes();
     let mut bytes = b"glTF\x02\0\0\0".to_vec();
     let length = u32::try_from(28 + json.len() + binary.len()).unwrap();

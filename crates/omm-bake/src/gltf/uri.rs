@@ -12,7 +12,7 @@ pub(super) fn read(file: &Path, at: &str, uri: &str) -> Result<Vec<u8>, GltfErro
         let shown = uri.chars().take(60).collect();
         GltfError::new(file, at, GltfErrorKind::Uri { uri: shown, why })
     };
-    if uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:")) {
+    if is_data(uri) {
         return data(uri.get(5..).unwrap_or_default()).map_err(refuse);
     }
     let path = beside(file, uri).map_err(refuse)?;
@@ -20,6 +20,15 @@ pub(super) fn read(file: &Path, at: &str, uri: &str) -> Result<Vec<u8>, GltfErro
         let error = io::Error::new(error.kind(), format!("{}: {error}", path.display()));
         GltfError::new(file, at, GltfErrorKind::Read(error))
     })
+}
+
+fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
+/// The path of the file that the `uri` found in the glTF file `file` names, if it names one.
+pub(super) fn file(file: &Path, uri: &str) -> Option<PathBuf> {
+    if is_data(uri) { None } else { beside(file, uri).ok() }
 }
 
 /// The path of the file that a relative URI names. It must lie in the glTF file's folder or below it.

@@ -63,7 +63,7 @@ fn with(pointer: &str, value: Value) -> String {
 #[test]
 fn every_field_is_read() {
     let folder = Folder::new();
-    let Job { name, texture, uvs, triangles, options } = folder.read(&job().to_string()).unwrap();
+    let Job { name, texture, uvs, triangles, options, files } = folder.read(&job().to_string()).unwrap();
     assert_eq!((name.as_str(), texture.width(), texture.alpha(0, 1)), ("leaf", 2, Some(128.0 / 255.0)));
     assert_eq!((uvs, triangles), (vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], vec![[0, 1, 2]]));
     let expected = BakeOptions {
@@ -75,6 +75,7 @@ fn every_field_is_read() {
         ..BakeOptions::default()
     };
     assert_eq!(options, expected);
+    assert_eq!(files, ["x.job.json", "t.bin", "uv.bin", "tri.bin"].map(|name| folder.0.path().join(name)));
 }
 
 #[test]

@@ -4,7 +4,8 @@
 
 use std::error::Error;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
+use omm_bench::arguments::{Common, Format};
 use omm_bench::peers::{BakeRow, measure};
 use omm_bench::workload::Workload;
 use serde_json::json;
@@ -12,27 +13,16 @@ use serde_json::json;
 /// Compares bakers on one thread.
 #[derive(Parser)]
 struct Arguments {
-    /// How results are printed.
-    #[arg(long, value_enum, default_value = "text")]
-    format: Format,
-    /// How often each baker does each workload; the fastest round counts.
-    #[arg(long, default_value_t = 5)]
-    rounds: u32,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
+    #[command(flatten)]
+    common: Common,
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let arguments = Arguments::parse();
+    let Common { format, rounds } = Arguments::parse().common;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build()?;
-    let rows: Vec<BakeRow> = pool.install(|| {
-        Workload::PEERS.iter().map(|workload| measure(workload, arguments.rounds)).collect::<Result<_, _>>()
-    })?;
-    if arguments.format == Format::Json {
+    let rows: Vec<BakeRow> =
+        pool.install(|| Workload::PEERS.iter().map(|workload| measure(workload, rounds)).collect::<Result<_, _>>())?;
+    if format == Format::Json {
         println!("{}", json!({ "bake": rows }));
         return Ok(());
     }

@@ -49,7 +49,7 @@ pub(super) struct SidecarSource {
 }
 
 /// Name, length and digest of a file.
-pub(super) fn source(path: &Path) -> Result<Source, CliError> {
+pub(crate) fn source(path: &Path) -> Result<Source, CliError> {
     let (mut file, _) = output::open(path)?;
     let (mut hasher, mut buffer, mut length) = (Sha256::new(), vec![0; 1 << 16], 0);
     loop {
@@ -156,14 +156,20 @@ fn describe(sidecar: &Path, stats: &Path) -> Result<(String, String, Vec<Source>
         return Ok(("{}".to_owned(), "{}".to_owned(), Vec::new()));
     }
     let text = output::read(stats)?;
-    let mut value: Value = serde_json::from_slice(&text).map_err(|error| bad(stats, error.to_string()))?;
+    let value = serde_json::from_slice(&text).map_err(|error| bad(stats, error.to_string()))?;
+    let (settings, statistics) = settings_and_statistics(value);
+    Ok((settings, statistics, Vec::new()))
+}
+
+/// The two texts of a bundle that the statistics of a bake become.
+pub(crate) fn settings_and_statistics(mut statistics: Value) -> (String, String) {
     let mut settings = Value::Object(serde_json::Map::new());
-    if let Some(map) = value.as_object_mut() {
+    if let Some(map) = statistics.as_object_mut() {
         settings = map.shift_remove("options").unwrap_or(settings);
         // The time that it took differs from run to run, and a bundle of the same input is the same.
         map.shift_remove("seconds");
     }
-    Ok((settings.to_string(), value.to_string(), Vec::new()))
+    (settings.to_string(), statistics.to_string())
 }
 
 /// The digest of 64 hexadecimal digits.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::pack::{Sidecar, SidecarSource};
-use super::{hex, read};
+use super::{hex, load, read};
 use crate::cli::Format;
 use crate::error::{CliError, Outcome};
 use crate::output::{self, OutputSet};
@@ -34,7 +34,7 @@ pub(super) fn file_name(name: &str) -> Option<&str> {
 
 pub(super) fn run(args: &UnpackArgs, format: Format) -> Result<Outcome, CliError> {
     let UnpackArgs { file, out } = args;
-    let bytes = output::read(file)?;
+    let bytes = load(file)?;
     let bundle = read(file, &bytes)?;
     let mut files = OutputSet::new(out);
     let mut names = BTreeSet::new();

@@ -1,27 +1,36 @@
-//! Every byte of serialized data with its name.
+//! Every byte of serialized data or of a bundle with its name.
 
 use std::io::{self, Write};
 
-use omm_serialize::{Blob, Field};
+use omm_serialize::Field;
 use serde::Serialize;
+
+use crate::error::{CliError, Outcome};
+use crate::output;
 
 /// Bytes in a line.
 const LINE: usize = 16;
 
-/// Prints all fields of `blob`, which was read from `bytes`, and whether they end with it.
-pub(super) fn print(bytes: &[u8], blob: &Blob<'_>, out: &mut dyn Write) -> io::Result<bool> {
-    let (mut end, mut whole, mut result) = (0, true, Ok(()));
-    blob.describe(&mut |field| {
-        whole &= field.offset == end;
-        end = field.offset.saturating_add(field.size);
-        if result.is_ok() {
-            result = print_field(bytes, &field, out);
-        }
-    });
-    result?;
-    whole &= end == bytes.len() as u64;
-    writeln!(out, "{end:08x}: end; every byte of {} was named: {whole}", bytes.len())?;
-    Ok(whole)
+/// Gives every field of some bytes to what it is lent.
+pub(crate) type Fields<'v> = &'v mut dyn FnMut(Field);
+
+/// Prints all fields of `bytes` and whether they end with it.
+pub(crate) fn print(bytes: &[u8], describe: impl FnOnce(Fields<'_>)) -> Result<Outcome, CliError> {
+    let mut whole = true;
+    output::print(|out| {
+        let (mut end, mut result) = (0, Ok(()));
+        describe(&mut |field| {
+            whole &= field.offset == end;
+            end = field.offset.saturating_add(field.size);
+            if result.is_ok() {
+                result = print_field(bytes, &field, out);
+            }
+        });
+        result?;
+        whole &= end == bytes.len() as u64;
+        writeln!(out, "{end:08x}: end; every byte of {} was named: {whole}", bytes.len())
+    })?;
+    Ok(if whole { Outcome::Clean } else { Outcome::Violations })
 }
 
 fn print_field(bytes: &[u8], field: &Field, out: &mut dyn Write) -> io::Result<()> {
@@ -44,16 +53,16 @@ fn print_field(bytes: &[u8], field: &Field, out: &mut dyn Write) -> io::Result<(
 
 /// One field in JSON.
 #[derive(Serialize)]
-pub(super) struct Row {
+pub(crate) struct Row {
     offset: u64,
     size: u64,
     name: String,
     value: String,
 }
 
-/// All fields of `blob`.
-pub(super) fn rows(blob: &Blob<'_>) -> Vec<Row> {
+/// All fields of some bytes.
+pub(crate) fn rows(describe: impl FnOnce(Fields<'_>)) -> Vec<Row> {
     let mut rows = Vec::new();
-    blob.describe(&mut |Field { offset, size, name, value }| rows.push(Row { offset, size, name, value }));
+    describe(&mut |Field { offset, size, name, value }| rows.push(Row { offset, size, name, value }));
     rows
 }

@@ -42,15 +42,15 @@ impl World {
         let profile = self.profile();
         let bytes = omm_serialize::serialize_object(object.as_bytes(), profile.driver_uuid, profile.compatibility_uuid);
         let bytes = bytes.map_err(|error| of.mistake(error.to_string()))?;
-        let request = BufferRequest { name, size: bytes.len() as u64, usage: INPUT, memory_type: None, bound: true };
+        let request = BufferRequest::new(name, bytes.len() as u64, INPUT);
         let range = self.make_buffer(&request, node)?;
         self.write(range.address, &bytes, node)?;
         Ok(format!("{source} serialized"))
     }
 
-    /// `buffer(size, bytes, usage, memory_type, bound)`
+    /// `buffer(size, bytes, usage, flags, memory_type, bound)`
     pub(super) fn buffer(&mut self, name: &str, node: &Node) -> Result<String, Mistake> {
-        let arguments = Arguments::of(node, &["size", "bytes", "usage", "memory_type", "bound"])?;
+        let arguments = Arguments::of(node, &["size", "bytes", "usage", "flags", "memory_type", "bound"])?;
         let bytes = arguments.get("bytes").map(|node| super::bytes(node, &self.objects)).transpose()?;
         let length = bytes.as_ref().map_or(0, |bytes| bytes.len() as u64);
         let size = arguments.get("size").map_or(Ok(if length == 0 { 256 } else { length }), Node::integer)?;
@@ -62,9 +62,10 @@ impl World {
             | vk::BufferUsageFlags::MICROMAP_STORAGE
             | vk::BufferUsageFlags::INDIRECT_BUFFER;
         let usage = arguments.get("usage").map_or(Ok(usual), |node| self.typed(node))?;
+        let flags = self.typed_or_default(arguments.get("flags"))?;
         let memory_type = arguments.get("memory_type").map(Node::integer).transpose()?;
         let bound = arguments.get("bound").map_or(Ok(true), Node::boolean)?;
-        let range = self.make_buffer(&BufferRequest { name, size, usage, memory_type, bound }, node)?;
+        let range = self.make_buffer(&BufferRequest { name, size, usage, flags, memory_type, bound }, node)?;
         if let Some(bytes) = bytes {
             self.write(range.address, &bytes, node)?;
         }

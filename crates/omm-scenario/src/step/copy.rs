@@ -58,10 +58,7 @@ impl World {
         if !self.objects.contains(to.text()?) {
             let built = self.built(from.text()?, from)?;
             let size = built.map_or(UNKNOWN_SIZE, |object| omm_serialize::serialized_size(object.header()));
-            self.make_buffer(
-                &BufferRequest { name: to.text()?, size, usage: INPUT, memory_type: None, bound: true },
-                to,
-            )?;
+            self.make_buffer(&BufferRequest::new(to.text()?, size, INPUT), to)?;
         }
         let dst = self.place(to)?;
         Ok(match source.handle {

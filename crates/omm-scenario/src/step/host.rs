@@ -129,7 +129,7 @@ impl World {
                 let bytes: Vec<u8> = ranges.iter().flat_map(build_range::encode).collect();
                 let usage = INPUT | vk::BufferUsageFlags::INDIRECT_BUFFER;
                 let size = bytes.len() as u64;
-                let request = BufferRequest { name: &name, size, usage, memory_type: None, bound: true };
+                let request = BufferRequest::new(&name, size, usage);
                 let range = self.make_buffer(&request, node)?;
                 self.write(range.address, &bytes, node)?;
             }

@@ -114,7 +114,7 @@ impl World {
         let mut structure = self.reserve(name, ty, is_ext, size, node)?;
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let scratch_name = format!("{name}.scratch");
-        let request = BufferRequest { name: &scratch_name, size: scratch, usage, memory_type: None, bound: true };
+        let request = BufferRequest::new(&scratch_name, scratch, usage);
         let scratch = vk::DeviceAddress(self.make_buffer(&request, node)?.address);
         structure.recipe = Some(match (recipe, structure.handle) {
             (Recipe::AccelerationStructure { mut info, ranges }, Handle::AccelerationStructure(handle)) => {
@@ -176,7 +176,7 @@ impl World {
         };
         let usage = usage | vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
         let storage = format!("{name}.storage");
-        let request = BufferRequest { name: &storage, size, usage, memory_type: None, bound: true };
+        let request = BufferRequest::new(&storage, size, usage);
         let range = self.make_buffer(&request, node)?;
         let buffer = self.objects.handle("Buffer", &storage).map(vk::Buffer).unwrap_or_default();
         let handle = self.handle();

@@ -1,5 +1,6 @@
 //! Building a tree: the shape from `obvhs`, the boxes from us.
 
+use glam::Vec4;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
@@ -115,7 +116,7 @@ impl Bvh {
         let levels = levels.checked_sub(1)?;
         let index = self.pairs.len();
         (index < boxes.len()).then_some(())?;
-        self.pairs.push(Pair { planes: [[0.0; 4]; 3], nodes: [Node::default(); 2] });
+        self.pairs.push(Pair { planes: [Vec4::ZERO; 3], nodes: [Node::default(); 2] });
         let child = |side: usize| shape.nodes.get(node.first as usize + side).copied();
         let (left, left_bounds) = self.place(shape, child(0)?, boxes, levels)?;
         let (right, right_bounds) = self.place(shape, child(1)?, boxes, levels)?;
@@ -130,7 +131,7 @@ fn planes(scale: f64, [left, right]: [&Bounds; 2]) -> Planes {
     std::array::from_fn(|axis| {
         let low = |bounds: &Bounds| round_down(bounds.low[axis] * scale - MARGIN);
         let high = |bounds: &Bounds| round_up(bounds.high[axis] * scale + MARGIN);
-        [low(left), low(right), high(left), high(right)]
+        Vec4::new(low(left), low(right), high(left), high(right))
     })
 }
 

@@ -1,13 +1,15 @@
 //! The conservative test of a ray against boxes; see the [module](super) for what it guarantees.
 
+use glam::{Vec4, Vec4Swizzles};
+
 use super::{Bvh, Planes};
 
 /// A ray in the unit of a tree, made ready for its boxes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BoxRay {
-    /// For each axis the origin from above and from below: subtracted from lower and upper ends of boxes.
-    origin: [[f32; 2]; 3],
-    inverse: [f32; 3],
+    /// For each axis what is subtracted from planes: the origin from above twice, for lower ends, and from below twice.
+    origin: [Vec4; 3],
+    inverse: [Vec4; 3],
     /// What `t` is multiplied with.
     t_scale: f64,
     t_min: f32,
@@ -31,22 +33,29 @@ impl BoxRay {
         let origin = origin.map(|x| x * bvh.scale);
         let direction = direction.map(|x| x * bvh.scale);
         let t_scale = power_below(largest(direction));
+        let t_unit = 1.0 / t_scale;
         let distance = largest(origin);
         // Coordinates of boxes are below 2.
         let size = distance.max(2.0);
 
-        let mut ray =
-            Self { origin: [[0.0; 2]; 3], inverse: [0.0; 3], t_scale, t_min: round_down(f64::from(t_min) * t_scale) };
+        let mut ray = Self {
+            origin: [Vec4::ZERO; 3],
+            inverse: [Vec4::ZERO; 3],
+            t_scale,
+            t_min: round_down(f64::from(t_min) * t_scale),
+        };
         let axes = ray.origin.iter_mut().zip(&mut ray.inverse);
         for ((slot, inverse), (x, slope)) in axes.zip(origin.into_iter().zip(direction)) {
-            let slope = slope / t_scale;
+            // Exact: the inverse of a power of two.
+            let slope = slope * t_unit;
             let parallel = slope.abs() < PARALLEL;
             let margin = if parallel { size * PARALLEL_MARGIN } else { distance * ORIGIN_MARGIN };
-            *inverse = if parallel { PARALLEL_INVERSE } else { (1.0 / slope) as f32 };
+            *inverse = Vec4::splat(if parallel { PARALLEL_INVERSE } else { (1.0 / slope) as f32 });
             // Only absurd transforms lead beyond the numbers; then every box is met.
             let known = x.is_finite() && margin.is_finite();
-            *slot =
+            let [above, below] =
                 if known { [round_up(x + margin), round_down(x - margin)] } else { [f32::INFINITY, f32::NEG_INFINITY] };
+            *slot = Vec4::new(above, above, below, below);
         }
         ray
     }
@@ -65,29 +74,19 @@ impl BoxRay {
     /// Where the ray enters each of two boxes, in its own unit, if it can meet them at most at `bound`.
     #[inline(always)]
     pub(super) fn enter(&self, planes: &Planes, bound: f32) -> [Option<f32>; 2] {
-        let (mut near, mut far) = ([self.t_min; 2], [bound; 2]);
-        for ((&[a, b, c, d], &[above, below]), &inverse) in planes.iter().zip(&self.origin).zip(&self.inverse) {
-            let low = [(a - above) * inverse, (b - above) * inverse];
-            let high = [(c - below) * inverse, (d - below) * inverse];
-            let (enter, leave) = if inverse < 0.0 { (high, low) } else { (low, high) };
-            near = larger(near, enter);
-            far = smaller(far, leave);
+        let (mut near, mut far) = (Vec4::splat(self.t_min), Vec4::splat(bound));
+        for ((planes, origin), inverse) in planes.iter().zip(&self.origin).zip(&self.inverse) {
+            // Of both boxes where the ray crosses the lower ends, then where it crosses the upper ones. No `t` is NaN: planes are
+            // finite, the inverse is neither zero nor infinite, and an infinite origin gives infinities.
+            let crossed = (*planes - *origin) * *inverse;
+            let opposite = crossed.zwxy();
+            near = near.max(crossed.min(opposite));
+            far = far.min(crossed.max(opposite));
         }
-        // No `t` is NaN: planes are finite, the inverse is neither zero nor infinite, and an infinite origin gives
-        // infinities. A negative far end stays negative, and `t_min` is not negative.
-        [0, 1].map(|side| (near[side] <= far[side] * SLACK).then_some(near[side]))
+        // A negative far end stays negative, and `t_min` is not negative.
+        let met = near.cmple(far * SLACK).bitmask();
+        [0, 1].map(|side| (met >> side & 1 == 1).then_some(near[side]))
     }
-}
-
-// `f32::min` and `f32::max` spend instructions on NaN.
-#[inline(always)]
-fn smaller(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
-    [0, 1].map(|side| if a[side] < b[side] { a[side] } else { b[side] })
-}
-
-#[inline(always)]
-fn larger(a: [f32; 2], b: [f32; 2]) -> [f32; 2] {
-    [0, 1].map(|side| if a[side] > b[side] { a[side] } else { b[side] })
 }
 
 /// The largest power of two that is at most `x`, within the exponents of normal numbers and their inverses.

@@ -182,7 +182,7 @@ fn read_aabbs(geometry: u32, view: &GeometryView<'_>) -> impl Iterator<Item = Aa
         let (min, max) = (finite([min_x, min_y, min_z]), finite([max_x, max_y, max_z]));
         let proper = min.iter().zip(&max).all(|(min, max)| min <= max);
         let primitive = stored.primitive_index;
-        proper.then_some(Aabb { min, max, planes: [[0.0; 4]; 3], geometry, primitive })
+        proper.then_some(Aabb { min, max, planes: Default::default(), geometry, primitive })
     })
 }
 

@@ -163,13 +163,13 @@ impl State {
     }
 
     /// The memory that an acceleration structure lies in, as far as it is known.
-    #[must_use]
-    pub fn structure_memory(&self, handle: vk::AccelerationStructure) -> Vec<MemorySpan> {
-        match self.acceleration_structure(handle).map(|structure| structure.storage) {
-            Some(Storage::Buffer { buffer, offset, size }) => self.buffer_memory(buffer, offset, size).collect(),
-            Some(Storage::AddressRange(range)) => self.memory_behind(range).collect(),
-            None => Vec::new(),
-        }
+    pub fn structure_memory(&self, handle: vk::AccelerationStructure) -> impl Iterator<Item = MemorySpan> {
+        let (in_buffer, behind) = match self.acceleration_structure(handle).map(|structure| structure.storage) {
+            Some(Storage::Buffer { buffer, offset, size }) => (Some(self.buffer_memory(buffer, offset, size)), None),
+            Some(Storage::AddressRange(range)) => (None, Some(self.memory_behind(range))),
+            None => (None, None),
+        };
+        in_buffer.into_iter().flatten().chain(behind.into_iter().flatten())
     }
 
     /// The buffers that are bound to any byte of a span of memory.

@@ -133,10 +133,9 @@ impl State {
     }
 
     /// The memory that a micromap object lies in, as far as it is known.
-    #[must_use]
-    pub fn micromap_memory(&self, handle: vk::Micromap) -> Vec<MemorySpan> {
-        let Some(&MicromapState { buffer, offset, size, .. }) = self.micromap(handle) else { return Vec::new() };
-        self.buffer_memory(buffer, offset, size).collect()
+    pub fn micromap_memory(&self, handle: vk::Micromap) -> impl Iterator<Item = MemorySpan> {
+        let micromap = self.micromap(handle).into_iter();
+        micromap.flat_map(|micromap| self.buffer_memory(micromap.buffer, micromap.offset, micromap.size))
     }
 
     /// Whether memory is bound to all of a micromap object; `None` if the object or its buffer is not known.

@@ -6,7 +6,7 @@ use omm_model::vk;
 use crate::location::At;
 use crate::report::Report;
 use crate::rule::RuleId;
-use crate::state::{State, Storage};
+use crate::state::{MemorySpan, State, Storage};
 use crate::violation::ViolationKind;
 
 /// What the addresses of serialized micromaps are aligned to.
@@ -145,8 +145,8 @@ fn overlap_02(at: &At<'_>, info: &vk::CopyAccelerationStructureInfo, state: &Sta
 
 /// Whether two objects are known to have memory, or addresses, in common.
 pub(super) fn share_memory(first: vk::AccelerationStructure, second: vk::AccelerationStructure, state: &State) -> bool {
-    let others = state.structure_memory(second);
-    if state.structure_memory(first).iter().any(|span| others.iter().any(|other| span.overlaps(other))) {
+    let overlaps = |span: MemorySpan| state.structure_memory(second).any(|other| span.overlaps(&other));
+    if state.structure_memory(first).any(overlaps) {
         return true;
     }
     match (state.address_range(first), state.address_range(second)) {

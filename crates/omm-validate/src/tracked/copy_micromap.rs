@@ -80,8 +80,7 @@ pub(super) fn host_visible_memory(
     rule: RuleId,
     report: &mut Report,
 ) {
-    let types =
-        || state.micromap_memory(micromap).into_iter().filter_map(|span| state.memory(span.memory)?.property_flags);
+    let types = || state.micromap_memory(micromap).filter_map(|span| state.memory(span.memory)?.property_flags);
     let hidden = |flags: &vk::MemoryPropertyFlags| !flags.contains(vk::MemoryPropertyFlags::HOST_VISIBLE);
     let found = match state.micromap_is_bound(micromap) {
         Some(false) => None,
@@ -108,8 +107,8 @@ pub(super) fn single_instance_memory(
     rule: RuleId,
     report: &mut Report,
 ) {
-    let spans = state.micromap_memory(micromap);
-    let instances = spans.iter().filter_map(|span| state.memory(span.memory)).map(|memory| memory.instances).max();
+    let memories = state.micromap_memory(micromap).filter_map(|span| state.memory(span.memory));
+    let instances = memories.map(|memory| memory.instances).max();
     if let Some(instances) = instances.filter(|instances| *instances > 1) {
         let kind = ViolationKind::MultipleInstances { found: instances as u64 };
         report.push(rule, &at.about_micromap(micromap), kind);

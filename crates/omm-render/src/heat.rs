@@ -1,7 +1,7 @@
 //! Colours for counts.
 
 /// The colour of `count` on a scale that ends at `most`: black, blue, red, yellow, white.
-pub(super) fn colour(count: u32, most: u32) -> [u8; 3] {
+pub(crate) fn colour(count: u32, most: u32) -> [u8; 3] {
     const STOPS: [[f32; 3]; 5] =
         [[0.0, 0.0, 0.0], [30.0, 40.0, 190.0], [215.0, 40.0, 50.0], [250.0, 205.0, 40.0], [255.0, 255.0, 255.0]];
     let position = count.min(most) as f32 / most.max(1) as f32 * (STOPS.len() - 1) as f32;

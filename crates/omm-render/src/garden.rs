@@ -1,8 +1,20 @@
-//! The demo's scene: ferns of many cards on a patch of ground, a camera and a sun.
+//! A scene that needs no file: ferns of many cards on a patch of ground, a camera and a sun.
 //!
 //! Positions are metres, *y* up. Only basic arithmetic and square roots are used, so that every machine builds the same scene.
 
-use super::random::Random;
+use omm_bake::{AddressMode, Filter, Sampler, Texture};
+
+use crate::camera::Camera;
+use crate::error::RenderError;
+use crate::random::Random;
+use crate::scene::{Cutout, Mesh, Paint, Part, Placement, RenderScene};
+
+pub mod fern;
+
+/// The mesh of the ground, which is placed once.
+pub const GROUND: usize = 0;
+/// The mesh of a fern.
+pub const FERN: usize = 1;
 
 /// Quads along a frond.
 const SEGMENTS: u32 = 8;
@@ -13,23 +25,39 @@ const PLANTS: u32 = 22;
 /// Metres between plants.
 const SPACING: f64 = 0.62;
 
-/// A triangle mesh with texture coordinates.
-pub(super) struct Mesh {
-    pub(super) positions: Vec<[f32; 3]>,
-    /// Empty if the mesh has no texture.
-    pub(super) uvs: Vec<[f32; 2]>,
-    pub(super) triangles: Vec<[u32; 3]>,
+/// The scene: 484 ferns of 112 triangles, all with the same texture, and the ground under them.
+///
+/// # Errors
+/// None in practice: the texture has a size, the camera a direction.
+pub fn garden() -> Result<RenderScene, RenderError> {
+    Ok(RenderScene {
+        alphas: vec![Texture::unorm8(fern::SIZE, fern::SIZE, fern::alpha())?],
+        colours: Vec::new(),
+        meshes: vec![Mesh { parts: vec![ground()] }, Mesh { parts: vec![plant()] }],
+        placements: std::iter::once(Placement { mesh: GROUND, transform: Placement::IDENTITY })
+            .chain(plants())
+            .collect(),
+        camera: camera()?,
+        sun: [0.48, 0.8, 0.36],
+    })
 }
 
-/// Where an instance stands: a 3 by 4 row-major matrix.
-pub(super) type Transform = [[f32; 4]; 3];
-
-/// The transform that changes nothing.
-pub(super) const IDENTITY: Transform = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+/// Looks down on the patch, so that every ray meets something.
+fn camera() -> Result<Camera, RenderError> {
+    let (eye, forward, height) = ([0.0, 2.6, 5.2], [0.0, -1.0, -1.55], 0.84);
+    Camera::new(eye, forward, [0.0, 1.0, 0.0], height).map_err(RenderError::from)
+}
 
 /// One fern: cards that rise from the root and bend outwards, each with the whole frond texture on it.
-pub(super) fn plant() -> Mesh {
-    let mut mesh = Mesh { positions: Vec::new(), uvs: Vec::new(), triangles: Vec::new() };
+fn plant() -> Part {
+    let sampler = Sampler::new(AddressMode::Clamp, Filter::Linear, 0.0);
+    let mut mesh = Part {
+        positions: Vec::new(),
+        uvs: Vec::new(),
+        triangles: Vec::new(),
+        paint: Paint::Frond,
+        cutout: Some(Cutout { alpha: 0, sampler, alpha_cutoff: 0.5 }),
+    };
     // Directions of the fronds: a seventh of a turn, repeated.
     let turn = (0.623_489_801_858_733_5, 0.781_831_482_468_029_8);
     let mut out = (1.0, 0.0);
@@ -57,19 +85,21 @@ pub(super) fn plant() -> Mesh {
 }
 
 /// The ground: two opaque triangles.
-pub(super) fn ground() -> Mesh {
+fn ground() -> Part {
     let half = 12.0;
-    Mesh {
+    Part {
         positions: vec![[-half, 0.0, -half], [half, 0.0, -half], [-half, 0.0, half], [half, 0.0, half]],
         uvs: Vec::new(),
         triangles: vec![[0, 1, 2], [2, 1, 3]],
+        paint: Paint::Earth,
+        cutout: None,
     }
 }
 
 /// Where the plants stand: a grid shaken, turned and scaled by chance.
-pub(super) fn plants() -> Vec<Transform> {
+fn plants() -> Vec<Placement> {
     let mut random = Random::new(2026);
-    let mut transforms = Vec::new();
+    let mut plants = Vec::new();
     let half = f64::from(PLANTS - 1) / 2.0;
     for row in 0..PLANTS {
         for column in 0..PLANTS {
@@ -78,10 +108,11 @@ pub(super) fn plants() -> Vec<Transform> {
             let x = (f64::from(column) - half + random.between(-0.4, 0.4)) * SPACING;
             let z = (f64::from(row) - half + random.between(-0.4, 0.4)) * SPACING;
             let (c, s) = ((turn_x * scale) as f32, (turn_z * scale) as f32);
-            transforms.push([[c, 0.0, s, x as f32], [0.0, scale as f32, 0.0, 0.0], [-s, 0.0, c, z as f32]]);
+            let transform = [[c, 0.0, s, x as f32], [0.0, scale as f32, 0.0, 0.0], [-s, 0.0, c, z as f32]];
+            plants.push(Placement { mesh: FERN, transform });
         }
     }
-    transforms
+    plants
 }
 
 /// A direction in the plane, by rejection.
@@ -96,68 +127,26 @@ fn direction(random: &mut Random) -> (f64, f64) {
     }
 }
 
-/// Towards the sun; of length 1.
-pub(super) const SUN: [f32; 3] = [0.48, 0.8, 0.36];
-
-/// A pinhole camera that looks down on the patch, so that every ray meets something.
-pub(super) struct Camera {
-    eye: [f64; 3],
-    forward: [f64; 3],
-    right: [f64; 3],
-    up: [f64; 3],
-}
-
-impl Camera {
-    /// The demo's view.
-    pub(super) fn new() -> Self {
-        let eye = [0.0, 2.6, 5.2];
-        let forward = normalised([0.0, -1.0, -1.55]);
-        let right = [1.0, 0.0, 0.0];
-        let up = [0.0, -forward[2], forward[1]];
-        Self { eye, forward, right, up }
-    }
-
-    /// Where rays start.
-    pub(super) fn eye(&self) -> [f32; 3] {
-        self.eye.map(|coordinate| coordinate as f32)
-    }
-
-    /// The direction through the middle of a pixel; rows run down.
-    pub(super) fn direction(&self, [column, row]: [u32; 2], [width, height]: [u32; 2]) -> [f32; 3] {
-        let unit = 0.84 / f64::from(height);
-        let x = (f64::from(column) + 0.5 - f64::from(width) / 2.0) * unit;
-        let y = (f64::from(height) / 2.0 - f64::from(row) - 0.5) * unit;
-        let through = [0, 1, 2].map(|axis| self.forward[axis] + x * self.right[axis] + y * self.up[axis]);
-        normalised(through).map(|coordinate| coordinate as f32)
-    }
-}
-
-fn normalised([x, y, z]: [f64; 3]) -> [f64; 3] {
-    let length = (x * x + y * y + z * z).sqrt();
-    [x / length, y / length, z / length]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn meshes_are_indexed_in_range() {
-        for mesh in [plant(), ground()] {
-            assert!(mesh.triangles.iter().flatten().all(|&index| (index as usize) < mesh.positions.len()));
-            assert!(mesh.uvs.is_empty() || mesh.uvs.len() == mesh.positions.len());
+        let garden = garden().unwrap();
+        for part in garden.meshes.iter().flat_map(|mesh| &mesh.parts) {
+            assert!(part.triangles.iter().flatten().all(|&index| (index as usize) < part.positions.len()));
+            assert!(part.uvs.is_empty() || part.uvs.len() == part.positions.len());
         }
-        assert_eq!(plant().triangles.len(), 112);
-        assert_eq!(plants().len(), 484);
+        assert_eq!(garden.meshes[FERN].parts[0].triangles.len(), 112);
+        assert_eq!(garden.placements.len(), 1 + 484);
     }
 
     #[test]
     fn every_pixel_looks_down() {
-        let camera = Camera::new();
-        for pixel in [[0, 0], [959, 0], [0, 539], [959, 539], [480, 270]] {
+        let camera = garden().unwrap().camera;
+        for pixel in [[0.5, 0.5], [959.5, 0.5], [0.5, 539.5], [959.5, 539.5], [480.0, 270.0]] {
             assert!(camera.direction(pixel, [960, 540])[1] < -0.05, "{pixel:?}");
         }
-        let length: f32 = SUN.iter().map(|c| c * c).sum();
-        assert!((length - 1.0).abs() < 1e-6);
     }
 }

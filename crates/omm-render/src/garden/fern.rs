@@ -1,11 +1,11 @@
-//! The demo's alpha texture: a fern frond, grown by an iterated function system.
+//! The garden's alpha texture: a fern frond, grown by an iterated function system.
 //!
 //! Only additions, multiplications and divisions are used, so that every machine grows the same frond.
 
-use super::random::Random;
+use crate::random::Random;
 
 /// Side of the square texture in texels.
-pub(super) const SIZE: u32 = 1024;
+pub const SIZE: u32 = 1024;
 
 /// One of the four maps that a frond is made of: `x' = a x + b y`, `y' = c x + d y + rise`, chosen with a weight out of 100.
 struct Map {
@@ -29,7 +29,7 @@ const MAPS: [Map; 4] = [
 const POINTS: u32 = 3_000_000;
 
 /// The texture's alpha, row by row from the top (v = 0) down; the frond's root is at the bottom middle.
-pub(super) fn alpha() -> Vec<u8> {
+pub fn alpha() -> Vec<u8> {
     soften(&plot())
 }
 

@@ -1,0 +1,195 @@
+//! Traversal beside that of the crate that its hierarchy comes from, and with micromaps beside without.
+//!
+//! The scene is the garden of `omm_render`. What is compared with [`obvhs`] is one mesh of all its triangles in world space, every
+//! triangle opaque: the other side is the crate's own binary tree with its own build, its own walk and its own triangles, which neither
+//! knows instances nor promises that no ray slips through between triangles.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2_from_tris;
+use obvhs::ray::{Ray as BareRay, RayHit};
+use obvhs::rt_triangle::RtTriangle;
+use obvhs::triangle::Triangle;
+use omm_bake::{BakeOptions, LevelChoice};
+use omm_device::Device;
+use omm_device::app::App;
+use omm_model::level::SubdivisionLevel;
+use omm_model::profile::DeviceProfile;
+use omm_render::{
+    Baked, Built, Mesh, Paint, Part, PictureOptions, Placement, RenderError, RenderScene, Tracer, garden,
+};
+use omm_trace::{Counters, NoShaders, Ray, RayError, Scene, TraceOptions};
+
+/// The garden, built.
+#[derive(Debug)]
+pub struct Garden {
+    /// Meshes and camera.
+    pub scene: RenderScene,
+    /// Rays against it with 4-state micromaps.
+    pub with: Scene,
+    /// Rays against it with micromaps disabled.
+    pub without: Scene,
+}
+
+impl Garden {
+    /// Bakes and builds the garden at level 7.
+    ///
+    /// # Errors
+    /// None in practice.
+    pub fn new() -> Result<Self, RenderError> {
+        let scene = garden::garden()?;
+        let level = SubdivisionLevel::new(7).unwrap_or_default();
+        let options = BakeOptions { level: LevelChoice::Uniform(level), ..BakeOptions::default() };
+        let baked = Baked::new(&scene, &options, &|_, _| {})?;
+        let (with, without) = build(&scene, &baked)?;
+        Ok(Self { scene, with, without })
+    }
+
+    /// Traces a picture and answers with what happened; the number of threads is that of rayon's current pool.
+    ///
+    /// # Errors
+    /// None in practice.
+    pub fn picture(&self, rays: &Scene, size: [u32; 2]) -> Result<Counters, RenderError> {
+        let options = PictureOptions { size, samples: 1, seed: 0 };
+        let picture = Tracer::new(rays, &self.scene)?.picture(&options, &|_, _| {})?;
+        Ok(black_box(picture).counters)
+    }
+
+    /// All triangles in world space as one opaque mesh.
+    #[must_use]
+    pub fn flattened(&self) -> RenderScene {
+        let mut part = Part {
+            positions: Vec::new(),
+            uvs: Vec::new(),
+            triangles: Vec::new(),
+            paint: Paint::Plain([255.0; 3]),
+            cutout: None,
+        };
+        for placement in self.scene.placed() {
+            let parts = self.scene.meshes.get(placement.mesh).map_or([].as_slice(), |mesh| &mesh.parts);
+            for Part { positions, triangles, .. } in parts {
+                let first = part.positions.len() as u32;
+                let placed = positions.iter().map(|&position| placement.apply(position).map(|x| x as f32));
+                part.positions.extend(placed);
+                part.triangles.extend(triangles.iter().map(|corners| corners.map(|corner| first + corner)));
+            }
+        }
+        RenderScene {
+            meshes: vec![Mesh { parts: vec![part] }],
+            placements: vec![Placement { mesh: 0, transform: Placement::IDENTITY }],
+            ..self.scene.clone()
+        }
+    }
+}
+
+fn build(scene: &RenderScene, baked: &Baked) -> Result<(Scene, Scene), RenderError> {
+    let mut device = Device::new(DeviceProfile::reference());
+    let built = Built::new(&mut App::new(&mut device, &mut ()), scene, baked)?;
+    Ok((Scene::load(&device, built.with.address)?, Scene::load(&device, built.without.address)?))
+}
+
+/// The same opaque triangles and the same rays for both.
+pub struct Opaque {
+    scene: Scene,
+    rays: Vec<Ray>,
+    bare: Bvh2,
+    /// In the order of the tree.
+    bare_triangles: Vec<RtTriangle>,
+    bare_rays: Vec<BareRay>,
+}
+
+impl Opaque {
+    /// The flattened garden, seen through `columns` by `rows` pixels; from where each ray ends another goes to the sun.
+    ///
+    /// # Errors
+    /// None in practice.
+    pub fn new(garden: &Garden, [columns, rows]: [u32; 2]) -> Result<Self, RenderError> {
+        let flat = garden.flattened();
+        let parts: Vec<_> = flat.meshes.iter().flat_map(|mesh| &mesh.parts).collect();
+        let corner = |part: &Part, corner: u32| part.positions.get(corner as usize).copied().unwrap_or_default();
+        let triangles: Vec<Triangle> = parts
+            .iter()
+            .flat_map(|part| part.triangles.iter().map(|corners| corners.map(|at| corner(part, at))))
+            .map(|[v0, v1, v2]| Triangle { v0: v0.into(), v1: v1.into(), v2: v2.into() })
+            .collect();
+        let mut build_time = Duration::ZERO;
+        let bare = build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut build_time);
+        let item = |&item: &u32| triangles.get(item as usize).map(RtTriangle::from);
+        let bare_triangles = bare.primitive_indices.iter().filter_map(item).collect();
+        let baked = Baked::new(&flat, &BakeOptions::default(), &|_, _| {})?;
+        let (scene, _) = build(&flat, &baked)?;
+        let mut opaque = Self { scene, rays: Vec::new(), bare, bare_triangles, bare_rays: Vec::new() };
+        opaque.aim(&flat, [columns, rows])?;
+        let bare_ray = |ray: &Ray| BareRay::new_inf(ray.origin().into(), glam::Vec3A::from(ray.direction()));
+        opaque.bare_rays = opaque.rays.iter().map(bare_ray).collect();
+        Ok(opaque)
+    }
+
+    fn aim(&mut self, flat: &RenderScene, size: [u32; 2]) -> Result<(), RayError> {
+        let mut counters = Counters::default();
+        for row in 0..size[1] {
+            for column in 0..size[0] {
+                let place = [column, row].map(|at| f64::from(at) + 0.5);
+                let ray = Ray::unbounded(flat.camera.eye(), flat.camera.direction(place, size))?;
+                self.rays.push(ray);
+                let hit = self.scene.trace(&ray, &TraceOptions::default(), &mut NoShaders, &mut counters);
+                if let Some(hit) = hit {
+                    let end = ray.at(hit.t);
+                    let start = [0, 1, 2].map(|axis| end[axis] + 1e-3 * flat.sun[axis]);
+                    self.rays.push(Ray::unbounded(start, flat.sun)?);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How many rays there are.
+    #[must_use]
+    pub const fn rays(&self) -> usize {
+        self.rays.len()
+    }
+
+    /// Traces all rays with `omm_trace` and answers with the number of hits.
+    #[must_use]
+    pub fn ours(&self) -> usize {
+        let (options, mut counters) = (TraceOptions::default(), Counters::default());
+        let hits =
+            self.rays.iter().filter(|ray| self.scene.trace(ray, &options, &mut NoShaders, &mut counters).is_some());
+        black_box(hits.count())
+    }
+
+    /// Traces all rays with the crate's own walk and answers with the number of hits.
+    #[must_use]
+    pub fn bare(&self) -> usize {
+        let hits = self.bare_rays.iter().filter(|&&ray| {
+            let mut hit = RayHit::none();
+            self.bare.ray_traverse(ray, &mut hit, |ray, slot| {
+                self.bare_triangles.get(slot).map_or(f32::INFINITY, |triangle| triangle.intersect(ray))
+            });
+            hit.t < f32::INFINITY
+        });
+        black_box(hits.count())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_see_the_same() {
+        let garden = Garden::new().unwrap();
+        let opaque = Opaque::new(&garden, [48, 27]).unwrap();
+        let (ours, bare) = (opaque.ours(), opaque.bare());
+        assert!(opaque.rays() > 48 * 27 * 3 / 2 && ours > 48 * 27);
+        // Theirs may slip through between triangles.
+        assert!(ours.abs_diff(bare) * 1000 <= ours, "{ours} {bare}");
+        let (with, without) =
+            (garden.picture(&garden.with, [48, 27]).unwrap(), garden.picture(&garden.without, [48, 27]).unwrap());
+        assert_eq!(with.rays, without.rays);
+        assert!(2 * with.any_hit_calls < without.any_hit_calls);
+    }
+}

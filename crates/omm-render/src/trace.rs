@@ -1,0 +1,198 @@
+//! The renderer: rays through each pixel, one towards the sun from where each ends.
+
+use omm_bake::Surface;
+use omm_trace::{Candidate, Counters, Hit, Ray, RayError, RayFlags, Scene, TraceOptions};
+use rayon::prelude::*;
+
+use crate::error::RenderError;
+use crate::random::Random;
+use crate::scene::{Part, Placement, RenderScene};
+use crate::vector::{dot, normalised};
+
+mod shade;
+
+/// Rows that a thread takes at a time.
+const ROWS: usize = 4;
+/// The part of the light that comes from everywhere.
+const AMBIENT: f64 = 0.38;
+const SKY: [f64; 3] = [150.0, 180.0, 215.0];
+
+/// How a picture is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PictureOptions {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Rays from the camera for each pixel: one through its middle, or several through places that `seed` picks.
+    pub samples: u32,
+    /// Which places.
+    pub seed: u64,
+}
+
+/// What decided about the surface that a camera ray ends on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum OpacitySource {
+    /// The ray meets nothing.
+    Miss,
+    /// The geometry is opaque.
+    Geometry,
+    /// The micromap knows it to be opaque.
+    Micromap,
+    /// An any-hit shader, because the micromap does not know.
+    AnyHitUnknown,
+    /// An any-hit shader, because there is no micromap or it is disabled.
+    AnyHit,
+}
+
+/// A traced picture. Rows run down, pixels from left to right.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// Colours, sRGB.
+    pub colours: Vec<[u8; 3]>,
+    /// Any-hit calls for each pixel.
+    pub any_hit_calls: Vec<u32>,
+    /// For each pixel what decided about the end of its first ray.
+    pub sources: Vec<OpacitySource>,
+    /// Sums over all rays.
+    pub counters: Counters,
+}
+
+/// A scene as it was built, and all that its shaders need.
+#[derive(Debug)]
+pub struct Tracer<'a> {
+    rays: &'a Scene,
+    scene: &'a RenderScene,
+    /// The placements that were built, by instance.
+    placed: Vec<&'a Placement>,
+    /// What is cut out, by mesh, then by part.
+    surfaces: Vec<Vec<Option<Surface<'a>>>>,
+    sun: [f64; 3],
+}
+
+#[derive(Clone, Copy)]
+struct Pixel {
+    colour: [u8; 3],
+    any_hit_calls: u32,
+    source: OpacitySource,
+}
+
+impl<'a> Tracer<'a> {
+    /// Shaders for `rays`, which was built from `scene`.
+    ///
+    /// # Errors
+    /// A cutout whose cutoff or border nothing can be compared with, or a sun that has no direction.
+    pub fn new(rays: &'a Scene, scene: &'a RenderScene) -> Result<Self, RenderError> {
+        let surface = |mesh, (part, description): (usize, &'a Part)| {
+            let Some(cutout) = description.cutout else { return Ok(None) };
+            let Some(texture) = scene.alphas.get(cutout.alpha) else { return Ok(None) };
+            let surface = Surface::new(texture, cutout.sampler, cutout.alpha_cutoff);
+            surface.map(Some).map_err(|source| RenderError::Surface { mesh, part, source })
+        };
+        let meshes = scene.meshes.iter().enumerate();
+        let surfaces = meshes.map(|(at, mesh)| mesh.parts.iter().enumerate().map(|part| surface(at, part)).collect());
+        let sun = normalised(scene.sun.map(f64::from)).ok_or(RayError::ZeroDirection)?;
+        Ok(Self { rays, scene, placed: scene.placed().collect(), surfaces: surfaces.collect::<Result<_, _>>()?, sun })
+    }
+
+    /// Takes a picture, the same whatever the number of threads. `progress` is told how many rows and rays more are done.
+    ///
+    /// # Errors
+    /// A camera that is so far away that its rays are none.
+    pub fn picture(
+        &self,
+        options: &PictureOptions,
+        progress: &(dyn Fn(u64, u64) + Sync),
+    ) -> Result<Picture, RenderError> {
+        let [width, height] = options.size;
+        let tiles: Vec<_> = (0..height)
+            .collect::<Vec<_>>()
+            .par_chunks(ROWS)
+            .map(|rows| {
+                let mut counters = Counters::default();
+                let pixels = rows.iter().flat_map(|&row| (0..width).map(move |column| [column, row]));
+                let pixels: Vec<_> =
+                    pixels.map(|at| self.pixel(at, options, &mut counters)).collect::<Result<_, RenderError>>()?;
+                progress(rows.len() as u64, counters.rays);
+                Ok((pixels, counters))
+            })
+            .collect::<Result<_, RenderError>>()?;
+        let mut picture = Picture {
+            size: options.size,
+            colours: Vec::new(),
+            any_hit_calls: Vec::new(),
+            sources: Vec::new(),
+            counters: Counters::default(),
+        };
+        for (pixels, counters) in tiles {
+            for Pixel { colour, any_hit_calls, source } in pixels {
+                picture.colours.push(colour);
+                picture.any_hit_calls.push(any_hit_calls);
+                picture.sources.push(source);
+            }
+            picture.counters += counters;
+        }
+        Ok(picture)
+    }
+
+    fn pixel(&self, at: [u32; 2], options: &PictureOptions, counters: &mut Counters) -> Result<Pixel, RenderError> {
+        let PictureOptions { size, samples, seed } = *options;
+        let samples = samples.max(1);
+        let before = counters.any_hit_calls;
+        let number = u64::from(at[1]) * u64::from(size[0]) + u64::from(at[0]);
+        let mut random = Random::new(seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let mut sum = [0.0; 3];
+        let mut first = None;
+        for _ in 0..samples {
+            let shift = if samples == 1 { [0.5; 2] } else { [random.unit(), random.unit()] };
+            let place = [0, 1].map(|axis| f64::from(at[axis]) + shift[axis]);
+            let (colour, source) = self.sample(place, size, counters)?;
+            sum = [0, 1, 2].map(|channel| sum[channel] + colour[channel]);
+            first.get_or_insert(source);
+        }
+        Ok(Pixel {
+            colour: sum.map(|channel| (channel / f64::from(samples)) as u8),
+            any_hit_calls: u32::try_from(counters.any_hit_calls - before).unwrap_or(u32::MAX),
+            source: first.unwrap_or(OpacitySource::Miss),
+        })
+    }
+
+    /// The colour at a place of the picture.
+    fn sample(
+        &self,
+        place: [f64; 2],
+        size: [u32; 2],
+        counters: &mut Counters,
+    ) -> Result<([f64; 3], OpacitySource), RenderError> {
+        let camera = &self.scene.camera;
+        let mut alpha_test = |candidate: &Candidate| self.alpha_test(candidate);
+        let options = TraceOptions::default();
+        let ray = Ray::unbounded(camera.eye(), camera.direction(place, size))?;
+        let Some(hit) = self.rays.trace(&ray, &options, &mut alpha_test, counters) else {
+            return Ok((SKY, OpacitySource::Miss));
+        };
+        let end = ray.at(hit.t);
+        let facing = self.normal(&hit).map_or(0.0, |normal| dot(normal, self.sun).abs());
+        // Above the surface by more than rounding, so that the ray to the sun does not meet it again.
+        let far = end.iter().fold(1.0, |far: f64, x| far.max(f64::from(x.abs())));
+        let start = [0, 1, 2].map(|axis| (f64::from(end[axis]) + 1e-3 * far * self.sun[axis]) as f32);
+        let to_sun = Ray::unbounded(start, self.sun.map(|x| x as f32))?;
+        let flags = RayFlags::TERMINATE_ON_FIRST_HIT | RayFlags::SKIP_CLOSEST_HIT_SHADER;
+        let in_shadow = self.rays.trace(&to_sun, &TraceOptions { flags, ..options }, &mut alpha_test, counters);
+        let direct = if in_shadow.is_some() { 0.0 } else { (1.0 - AMBIENT) * (0.4 + 0.6 * facing) };
+        let colour = self.colour(&hit, end).map(|channel| (channel * (AMBIENT + direct)).clamp(0.0, 255.0));
+        Ok((colour, OpacitySource::of(&hit)))
+    }
+}
+
+impl OpacitySource {
+    /// What decided about a hit.
+    fn of(hit: &Hit) -> Self {
+        match (hit.opaque, hit.micromap) {
+            (true, Some(_)) => Self::Micromap,
+            (true, None) => Self::Geometry,
+            (false, Some(_)) => Self::AnyHitUnknown,
+            (false, None) => Self::AnyHit,
+        }
+    }
+}
