@@ -63,7 +63,6 @@ impl AccelerationStructures {
         handle: vk::AccelerationStructure,
     ) -> Result<Output, Stop> {
         self.check_new(handle, info.ty)?;
-        check_motion(info.create_flags, info.motion_info().is_some())?;
         memory.buffer(info.buffer).at("pCreateInfo->buffer")?;
         let address = memory.address_in(info.buffer, info.offset, info.size).at("pCreateInfo->offset")?;
         // Replay works as far as the same calls give the same addresses.
@@ -82,7 +81,6 @@ impl AccelerationStructures {
         handle: vk::AccelerationStructure,
     ) -> Result<Output, Stop> {
         self.check_new(handle, info.ty)?;
-        check_motion(info.create_flags, false)?;
         let vk::DeviceAddressRange { address, size } = info.address_range;
         memory.place(address.0, size).at("pCreateInfo->addressRange")?;
         Ok(self.insert(handle, AccelerationStructure { address, size, ty: info.ty }))
@@ -107,13 +105,6 @@ impl AccelerationStructures {
         memory.place(found.address.0, found.size).at("pInfo->accelerationStructure")?;
         Ok(Output::DeviceAddress(found.address))
     }
-}
-
-fn check_motion(flags: vk::AccelerationStructureCreateFlags, sized: bool) -> Result<(), Stop> {
-    if sized || flags.contains(vk::AccelerationStructureCreateFlags::MOTION) {
-        return Err(Reason::Unsupported { what: "motion" }).at("pCreateInfo->createFlags");
-    }
-    Ok(())
 }
 
 /// The kind of object that a structure of a type holds; `None` for "generic".

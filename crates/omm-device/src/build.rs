@@ -170,9 +170,6 @@ impl Device {
 /// What is built, if it can be built at all.
 fn kind(info: &vk::BuildGeometryInfo) -> Result<ObjectKind, Stop> {
     let kind = kind_of(info.ty).ok_or(Reason::UnknownValue { found: info.ty.0.into() }).at("type")?;
-    if info.flags.contains(vk::BuildAccelerationStructureFlags::MOTION) {
-        return Err(Reason::Unsupported { what: "motion" }).at("flags");
-    }
     match info.mode {
         vk::BuildAccelerationStructureMode::BUILD | vk::BuildAccelerationStructureMode::UPDATE => Ok(kind),
         vk::BuildAccelerationStructureMode(found) => Err(Reason::UnknownValue { found: found.into() }).at("mode"),

@@ -14,7 +14,7 @@
 //! address in no buffer, an index beyond the micromap, a race between two builds of one command — it stops with [`Undefined`],
 //! which says where and why, and is as it was before the call.
 //!
-//! Commands with a meaning that is not simulated stop with [`Reason::Unsupported`]: motion, displacement micromaps, buffers with
+//! Commands with a meaning that is not simulated stop with [`Reason::Unsupported`]: displacement micromaps, buffers with
 //! sparse residency or with several bound pieces, and structures of tens of gibibytes.
 //!
 //! # Host commands
@@ -97,4 +97,5 @@ pub use command_buffer::CommandBufferState;
 pub use device::{DEFAULT_HEAP_SIZE, Device};
 pub use micromap::Micromap;
 pub use query::MAX_QUERIES;
+pub use trace::StructureMemory;
 pub use undefined::{Reason, Submitted, Undefined};

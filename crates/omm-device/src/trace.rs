@@ -3,20 +3,44 @@
 use std::collections::BTreeSet;
 
 use omm_layout::object::{BlasObject, GeometryKind, MicromapObject, Object, ObjectHeader, ObjectKind};
+use omm_model::memory::{MemoryError, MemoryView};
 use omm_model::special_index::TriangleMap;
 use omm_model::vk;
 
 use crate::device::Device;
 use crate::undefined::{At, Reason, Stop};
 
+/// The memory of a device as rays see it: what lies at the addresses of acceleration structures and micromaps that exist.
+///
+/// Bytes outlive the structure that they were built for, but nothing may be traced through a structure that was destroyed.
+#[derive(Clone, Copy, Debug)]
+pub struct StructureMemory<'d> {
+    device: &'d Device,
+}
+
+impl MemoryView for StructureMemory<'_> {
+    fn read(&self, address: vk::DeviceAddress, size: u64) -> Result<&[u8], MemoryError> {
+        match self.device.check_address(address.0) {
+            Ok(()) => self.device.read(address, size),
+            Err(_) => Err(MemoryError { address: address.0, size, available: 0 }),
+        }
+    }
+}
+
 impl Device {
+    /// The memory that rays can read, to trace what the device built.
+    #[must_use]
+    pub const fn structure_memory(&self) -> StructureMemory<'_> {
+        StructureMemory { device: self }
+    }
+
     /// `vkCmdTraceRaysKHR` and `vkCmdDispatch` against the structure at an address. `mixed` says whether geometries may mix
     /// special indices with others.
     pub(crate) fn trace(&self, top_level: vk::DeviceAddress, mixed: bool) -> Result<(), Stop> {
         let Object::TopLevel(top) = self.built(top_level.0, ObjectKind::TopLevel).at("topLevel")? else {
             return Ok(());
         };
-        let instances = top.instances().map(|instance| instance.acceleration_structure_reference);
+        let instances = top.instances().map(|instance| instance.acceleration_structure_reference());
         for address in instances.filter(|&address| address != 0).collect::<BTreeSet<_>>() {
             if let Object::BottomLevel(bottom) = self.built(address, ObjectKind::BottomLevel).at("topLevel")? {
                 self.reach(&bottom, address, mixed).at("topLevel")?;

@@ -315,7 +315,7 @@ fn apply(steps: &mut Vec<Step>, at: usize, spoil: &Spoil) {
 fn the_program_itself_is_defined() {
     let (results, memory) = run(program());
     assert!(results.iter().all(Result::is_ok), "{results:?}");
-    assert!(memory.windows(8).any(|bytes| bytes == b"ommobj01"));
+    assert!(memory.windows(8).any(|bytes| bytes == b"ommobj02"));
 }
 
 proptest! {

@@ -1,7 +1,7 @@
 //! Inputs to begin with, made of our own output.
 
 use omm_layout::object::{BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, MicromapContents};
-use omm_layout::object::{MicromapTriangleData, TlasContents};
+use omm_layout::object::{MicromapTriangleData, MotionTlasContents, TlasContents};
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::profile::Uuid;
@@ -50,12 +50,16 @@ fn objects() -> Vec<Vec<u8>> {
         geometry(BlasPrimitives::MicromapTriangles { micromap: 0, triangles: vec![] }),
         geometry(BlasPrimitives::Triangles(vec![Some([[1.0; 3]; 3])])),
         geometry(BlasPrimitives::Aabbs(vec![None])),
+        geometry(BlasPrimitives::MovingTriangles(vec![Some([[[1.0; 3]; 3], [[2.0; 3]; 3]])])),
     ];
     let card = BlasContents { flags: 2, geometries }.encode();
     let instance =
         |acceleration_structure_reference| vk::Instance { acceleration_structure_reference, ..vk::Instance::default() };
     let scene = TlasContents { flags: 2, instances: [7, 0, 7].map(instance).to_vec() }.encode();
-    [leaf, card, scene].into_iter().flatten().collect()
+    let moving = vk::SrtMotionInstance { acceleration_structure_reference: 7, ..vk::SrtMotionInstance::default() };
+    let instances = vec![vk::MotionInstanceData::SrtMotionInstance(moving), vk::MotionInstanceData::default()];
+    let moving = MotionTlasContents { flags: 2, instances }.encode();
+    [leaf, card, scene, moving].into_iter().flatten().collect()
 }
 
 fn micromap() -> MicromapData {

@@ -183,7 +183,7 @@ mod tests {
         let error = ReadError::new("magic", 0, ReadErrorKind::Truncated { available: 3, required: 8 });
         assert_eq!(error.to_string(), "magic at byte 0: 8 bytes are needed, 3 are there");
         assert!(error.is_truncated());
-        let kind = ReadErrorKind::Magic { found: *b"\x7fELF....", required: *b"ommobj01" };
-        assert_eq!(kind.to_string(), r#"found "\x7fELF....", required "ommobj01""#);
+        let kind = ReadErrorKind::Magic { found: *b"\x7fELF....", required: *b"ommobj02" };
+        assert_eq!(kind.to_string(), r#"found "\x7fELF....", required "ommobj02""#);
     }
 }

@@ -6,7 +6,7 @@
 //! | [`triangle`], [`usage`] | micromap triangle arrays with a stride; usage counts |
 //! | [`index_buffer`] | micromap indices in 8, 16 or 32 bits, special indices, base triangle |
 //! | [`index`], [`vertex`], [`aabb`] | geometry: vertex indices, vertices of each format, boxes |
-//! | [`instance`], [`transform`], [`build_range`] | the structures that builds read from memory |
+//! | [`instance`], [`motion_instance`], [`transform`], [`build_range`] | the structures that builds read from memory |
 //! | [`object`] | the packed form in which the simulated device keeps what it built |
 //!
 //! Bytes come from outside, so every read is bounded by the bytes at hand: a view proves what it needs when it is made, and an
@@ -46,6 +46,7 @@ pub mod error;
 pub mod index;
 pub mod index_buffer;
 pub mod instance;
+pub mod motion_instance;
 pub mod object;
 pub mod packed;
 mod strided;

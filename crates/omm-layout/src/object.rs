@@ -10,7 +10,7 @@
 //! | padding | zeros up to the size that the build sizes promised; none in a compacted object |
 //!
 //! All numbers are little-endian. Each kind has a contents structure that is written ([`MicromapContents`], [`BlasContents`],
-//! [`TlasContents`]) and a view that is read without copying ([`MicromapObject`], [`BlasObject`], [`TlasObject`]). A view proves
+//! [`TlasContents`] or [`MotionTlasContents`]) and a view that is read without copying ([`MicromapObject`], [`BlasObject`], [`TlasObject`]). A view proves
 //! the structure when it is made — every size, count, offset, level and index in range, everything reserved zero — so that what
 //! comes after it needs no further checks.
 
@@ -25,13 +25,13 @@ mod tlas;
 
 pub use blas::{
     BlasContents, BlasGeometry, BlasGeometrySize, BlasObject, BlasPrimitives, GeometryKind, GeometryView,
-    MappedTriangle, StoredAabb, StoredTriangle, TriangleVertices, blas_size,
+    MappedTriangle, MovingMappedTriangle, MovingVertices, StoredAabb, StoredTriangle, TriangleVertices, blas_size,
 };
 pub use describe::Field;
 pub use header::{MAGIC, ObjectForm, ObjectHeader, ObjectKind};
 pub use micromap::{MicromapContents, MicromapObject, MicromapTriangleData, micromap_size};
 pub use references::{references, replace_references};
-pub use tlas::{TlasContents, TlasObject, tlas_size};
+pub use tlas::{MotionTlasContents, TlasContents, TlasObject, tlas_size};
 
 /// A built object of whichever kind, its structure proved.
 #[derive(Clone, Copy, Debug)]

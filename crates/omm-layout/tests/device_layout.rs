@@ -74,3 +74,22 @@ fn top_level() {
     assert_eq!(built, example("tlas"));
     assert!(TlasObject::read(&built).is_ok());
 }
+
+#[test]
+fn top_level_with_motion() {
+    let mut transform_t1 = vk::TransformMatrix::IDENTITY;
+    transform_t1.matrix[0][3] = 4.0;
+    let moving = vk::MatrixMotionInstance {
+        transform_t0: vk::TransformMatrix::IDENTITY,
+        transform_t1,
+        instance_custom_index: 7,
+        mask: 0xff,
+        instance_shader_binding_table_record_offset: 3,
+        flags: vk::GeometryInstanceFlags::empty(),
+        acceleration_structure_reference: 0x2_0000,
+    };
+    let instances = vec![vk::MotionInstanceData::MatrixMotionInstance(moving)];
+    let built = MotionTlasContents { flags: 0, instances }.encode().unwrap();
+    assert_eq!(built, example("tlas-motion"));
+    assert!(TlasObject::read(&built).is_ok());
+}

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use omm_layout::object::*;
-use omm_layout::packed;
+use omm_layout::{instance, motion_instance, packed};
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::opacity::OpacityState;
@@ -52,11 +52,17 @@ fn any_geometry() -> impl Strategy<Value = BlasGeometry> {
     let mapped = (any_vertices(), any_map()).prop_map(|(vertices, map)| MappedTriangle { vertices, map });
     let mapped = (prop_oneof![Just(0), any::<u64>()], prop::collection::vec(prop::option::of(mapped), 0..6))
         .prop_map(|(micromap, triangles)| BlasPrimitives::MicromapTriangles { micromap, triangles });
+    let vertices = || [any_vertices(), any_vertices()];
+    let moving = prop::collection::vec(prop::option::of(vertices()), 0..6).prop_map(BlasPrimitives::MovingTriangles);
+    let moving_mapped = (vertices(), any_map()).prop_map(|(vertices, map)| MovingMappedTriangle { vertices, map });
+    let moving_mapped =
+        (prop_oneof![Just(0), any::<u64>()], prop::collection::vec(prop::option::of(moving_mapped), 0..6))
+            .prop_map(|(micromap, triangles)| BlasPrimitives::MovingMicromapTriangles { micromap, triangles });
     let aabb = prop::array::uniform6(-1e6_f32..1e6).prop_map(|[min_x, min_y, min_z, max_x, max_y, max_z]| {
         vk::AabbPositions { min_x, min_y, min_z, max_x, max_y, max_z }
     });
     let aabbs = prop::collection::vec(prop::option::of(aabb), 0..6).prop_map(BlasPrimitives::Aabbs);
-    (any::<u32>(), prop_oneof![triangles, mapped, aabbs])
+    (any::<u32>(), prop_oneof![triangles, mapped, moving, moving_mapped, aabbs])
         .prop_map(|(flags, primitives)| BlasGeometry { flags: vk::GeometryFlags::from_bits_retain(flags), primitives })
 }
 
@@ -84,11 +90,40 @@ fn any_tlas() -> impl Strategy<Value = TlasContents> {
         .prop_map(|(flags, instances)| TlasContents { flags, instances })
 }
 
+fn any_motion_tlas() -> impl Strategy<Value = MotionTlasContents> {
+    let numbers = prop::array::uniform32(-1e6_f32..1e6);
+    let moving = (0..3_i32, any_instance(), numbers).prop_map(|(ty, instance, numbers)| {
+        // The transformations come first in each structure, in whatever parts.
+        let numbers = numbers.iter().flat_map(|number| number.to_le_bytes());
+        let tail = instance::encode(&instance).unwrap()[48..].to_vec();
+        let ty = vk::MotionInstanceType(ty);
+        let size = motion_instance::data_size(ty).unwrap();
+        let bytes: Vec<u8> = numbers.take(size - 16).chain(tail).collect();
+        motion_instance::read_data(ty, &bytes).unwrap()
+    });
+    (any::<u32>(), prop::collection::vec(moving, 0..6)).prop_map(|(flags, instances)| {
+        let motion = vk::BuildAccelerationStructureFlags::MOTION.bits();
+        MotionTlasContents { flags: flags | motion, instances }
+    })
+}
+
 /// The primitives of a geometry as a build would collect them.
 fn primitives(view: &GeometryView<'_>) -> BlasPrimitives {
     let all = 0..view.primitive_count();
     match (view.kind(), view.micromap()) {
         (GeometryKind::Aabbs, _) => BlasPrimitives::Aabbs(all.map(|at| Some(view.aabb(at)?.positions)).collect()),
+        (GeometryKind::Triangles, None) if view.has_motion() => {
+            let moving = |at| view.triangle(at).map(|triangle| [triangle.vertices, triangle.vertices_t1.unwrap()]);
+            BlasPrimitives::MovingTriangles(all.map(moving).collect())
+        }
+        (GeometryKind::Triangles, Some(micromap)) if view.has_motion() => {
+            let moving = |at| {
+                let triangle = view.triangle(at)?;
+                let vertices = [triangle.vertices, triangle.vertices_t1.unwrap()];
+                Some(MovingMappedTriangle { vertices, map: triangle.map.unwrap() })
+            };
+            BlasPrimitives::MovingMicromapTriangles { micromap, triangles: all.map(moving).collect() }
+        }
         (GeometryKind::Triangles, None) => {
             BlasPrimitives::Triangles(all.map(|at| Some(view.triangle(at)?.vertices)).collect())
         }
@@ -108,11 +143,13 @@ fn blas_contents(object: &BlasObject<'_>) -> BlasContents {
 }
 
 fn sizes(contents: &BlasContents) -> Vec<BlasGeometrySize> {
+    let triangles =
+        |count: usize, micromap, motion| BlasGeometrySize::Triangles { count: count as u32, micromap, motion };
     let size = |geometry: &BlasGeometry| match &geometry.primitives {
-        BlasPrimitives::Triangles(t) => BlasGeometrySize::Triangles { count: t.len() as u32, micromap: false },
-        BlasPrimitives::MicromapTriangles { triangles, .. } => {
-            BlasGeometrySize::Triangles { count: triangles.len() as u32, micromap: true }
-        }
+        BlasPrimitives::Triangles(list) => triangles(list.len(), false, false),
+        BlasPrimitives::MicromapTriangles { triangles: list, .. } => triangles(list.len(), true, false),
+        BlasPrimitives::MovingTriangles(list) => triangles(list.len(), false, true),
+        BlasPrimitives::MovingMicromapTriangles { triangles: list, .. } => triangles(list.len(), true, true),
         BlasPrimitives::Aabbs(aabbs) => BlasGeometrySize::Aabbs { count: aabbs.len() as u32 },
     };
     contents.geometries.iter().map(size).collect()
@@ -144,6 +181,23 @@ fn check_sizes(built: &[u8], compacted: &[u8]) -> Result<(), TestCaseError> {
         prop_assert!(error.is_truncated(), "{}", error);
     }
     Ok(())
+}
+
+fn check_tlas(built: &[u8], flags: u32, instances: Vec<vk::MotionInstanceData>) -> Result<(), TestCaseError> {
+    let object = TlasObject::read(built).unwrap();
+    prop_assert_eq!(object.instances().collect::<Vec<_>>(), instances.clone());
+    let flags = vk::BuildAccelerationStructureFlags::from_bits_retain(flags);
+    prop_assert_eq!((object.header().flags, object.instance_count()), (flags.bits(), instances.len() as u32));
+    prop_assert_eq!(tlas_size(instances.len() as u32, flags), built.len() as u64);
+    let compacted = object.compact();
+    let object = TlasObject::read(&compacted).unwrap();
+    prop_assert_eq!(object.instances().collect::<Vec<_>>(), instances);
+    let references: Vec<_> = object.references().collect();
+    let mut unique = references.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    prop_assert_eq!(unique.len(), references.len());
+    check_sizes(built, &compacted)
 }
 
 /// Reads everything that a view offers.
@@ -191,20 +245,11 @@ proptest! {
     }
 
     #[test]
-    fn top_level_structures_round_trip(contents in any_tlas()) {
+    fn top_level_structures_round_trip(contents in any_tlas(), moving in any_motion_tlas()) {
         let built = contents.encode().unwrap();
-        let object = TlasObject::read(&built).unwrap();
-        prop_assert_eq!(object.contents(), contents.clone());
-        prop_assert_eq!(tlas_size(contents.instances.len() as u32), built.len() as u64);
-        let compacted = object.compact();
-        let object = TlasObject::read(&compacted).unwrap();
-        prop_assert_eq!(object.contents(), contents);
-        let references: Vec<_> = object.references().collect();
-        let mut unique = references.clone();
-        unique.sort_unstable();
-        unique.dedup();
-        prop_assert_eq!(unique.len(), references.len());
-        check_sizes(&built, &compacted)?;
+        let instances = contents.instances.into_iter().map(vk::MotionInstanceData::StaticInstance).collect();
+        check_tlas(&built, contents.flags, instances)?;
+        check_tlas(&moving.encode().unwrap(), moving.flags, moving.instances)?;
     }
 
     #[test]
@@ -315,5 +360,7 @@ fn sizes_are_checked() {
     assert_eq!(micromap_size(&vec![usage(u32::MAX); 1025]), None);
     assert_eq!(blas_size([]), Some(64));
     assert_eq!(blas_size([BlasGeometrySize::Aabbs { count: u32::MAX }]), Some(96 + 28 * u64::from(u32::MAX)));
-    assert_eq!(tlas_size(u32::MAX), 64 + 72 * u64::from(u32::MAX));
+    let flags = vk::BuildAccelerationStructureFlags::MOTION;
+    assert_eq!(tlas_size(u32::MAX, !flags), 64 + 72 * u64::from(u32::MAX));
+    assert_eq!(tlas_size(u32::MAX, flags), 64 + 160 * u64::from(u32::MAX));
 }

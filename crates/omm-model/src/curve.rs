@@ -11,6 +11,8 @@
 //!
 //! [`VK_EXT_opacity_micromap`]: https://docs.vulkan.org/refpages/latest/refpages/source/VK_EXT_opacity_micromap.html
 
+use serde::{Deserialize, Serialize};
+
 use crate::level::SubdivisionLevel;
 
 /// The index of the microtriangle that holds the point with barycentrics (`u`, `v`) at `level`.
@@ -62,6 +64,58 @@ const fn spread(bits: u32) -> u32 {
     let bits = (bits | bits << 4) & 0x0f0f_0f0f;
     let bits = (bits | bits << 2) & 0x3333_3333;
     (bits | bits << 1) & 0x5555_5555
+}
+
+/// Which microtriangle a point belongs to that lies on an edge or a vertex of the grid.
+///
+/// The specification has one lookup for what lies inside of a microtriangle, but leaves it to an implementation how it
+/// rounds; what lies within rounding of an edge may read any of those that touch it. A device profile says which.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TieBreak {
+    /// That of the appendix's code, [`index`].
+    #[default]
+    Reference,
+    /// The one of lowest index among those whose closed area holds the point, decided without rounding. A point outside
+    /// of the triangle is looked up by [`index`].
+    LowestIndex,
+}
+
+impl TieBreak {
+    /// The index of the microtriangle at (`u`, `v`).
+    #[must_use]
+    pub fn index(self, u: f32, v: f32, level: SubdivisionLevel) -> u32 {
+        match self {
+            Self::Reference => index(u, v, level),
+            Self::LowestIndex => lowest_touching(u, v, level).unwrap_or_else(|| index(u, v, level)),
+        }
+    }
+}
+
+/// The lowest index of the microtriangles that touch a point; `None` if it lies outside of the triangle.
+fn lowest_touching(u: f32, v: f32, level: SubdivisionLevel) -> Option<u32> {
+    let segments = level.segments();
+    // Exact: powers of two, and 53 bits.
+    let [fu, fv] = [u, v].map(|coordinate| f64::from(clamp_to_unit(coordinate)) * f64::from(segments));
+    let (cell_u, cell_v) = (fu as u32, fv as u32);
+    let cells = [(cell_u, cell_v), (cell_u.wrapping_sub(1), cell_v), (cell_u, cell_v.wrapping_sub(1))];
+    let cells = cells.into_iter().chain([(cell_u.wrapping_sub(1), cell_v.wrapping_sub(1))]);
+    let within = |&(u, v): &(u32, u32)| u < segments && v < segments && u + v < segments;
+    let touching = cells.filter(within).flat_map(|(u, v)| {
+        let (x, y) = (fu - f64::from(u), fv - f64::from(v));
+        // Both differences are exact. x + y is not, but it is on the right side of 1 if its error is looked at too.
+        let sum = x + y;
+        let error = if x >= y { y - (sum - x) } else { x - (sum - y) };
+        let beyond = sum > 1.0 || (sum == 1.0 && error > 0.0);
+        let on_diagonal = sum == 1.0 && error == 0.0;
+        let in_cell = x <= 1.0 && y <= 1.0;
+        let upright = in_cell && !beyond;
+        let flipped = in_cell && (beyond || on_diagonal) && u + v + 1 < segments;
+        let cell_w = !(u + v);
+        let index = |w| interleave(u, v, w, segments - 1);
+        [upright.then(|| index(cell_w)), flipped.then(|| index(cell_w.wrapping_sub(1)))].into_iter().flatten()
+    });
+    touching.min()
 }
 
 /// [`index`] for a slice of (`u`, `v`) pairs, into `indices`; pairs and indices beyond the shorter of the two are left alone.

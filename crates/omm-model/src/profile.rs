@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::curve::TieBreak;
 use crate::vk;
 
 /// Bytes of a UUID, `VK_UUID_SIZE`.
@@ -43,6 +44,9 @@ pub struct DeviceProfile {
     pub memory_types: Vec<vk::MemoryType>,
     /// Memory heaps, by index.
     pub memory_heaps: Vec<vk::MemoryHeap>,
+    /// Which microtriangle a hit on an edge between several reads; [`TieBreak::Reference`] where a file says nothing.
+    #[serde(default)]
+    pub micromap_tie_break: TieBreak,
 }
 
 /// What is kept of
@@ -146,7 +150,7 @@ impl DeviceProfile {
         Self {
             name: "reference".to_owned(),
             driver_uuid: Uuid(*b"omm sim. device."),
-            compatibility_uuid: Uuid(*b"reference, v0001"),
+            compatibility_uuid: Uuid(*b"reference, v0002"),
             limits: Limits {
                 max_opacity2_state_subdivision_level: 12,
                 max_opacity4_state_subdivision_level: 12,
@@ -181,6 +185,7 @@ impl DeviceProfile {
                 },
                 vk::MemoryHeap { size: 1 << 35, flags: vk::MemoryHeapFlags::empty() },
             ],
+            micromap_tie_break: TieBreak::Reference,
         }
     }
 
@@ -195,7 +200,7 @@ impl DeviceProfile {
     pub fn minimum() -> Self {
         Self {
             name: "minimum".to_owned(),
-            compatibility_uuid: Uuid(*b"minimum,   v0001"),
+            compatibility_uuid: Uuid(*b"minimum,   v0002"),
             limits: Limits {
                 max_opacity2_state_subdivision_level: 3,
                 max_opacity4_state_subdivision_level: 3,

@@ -1,6 +1,7 @@
 //! What a scenario expects, and whether it is so.
 
 mod contents;
+mod trace;
 
 use omm_model::call::Output;
 use omm_model::vk;
@@ -29,6 +30,8 @@ pub(crate) const WORDS: &[&str] = &[
     "bytes",
     "same",
     "smaller",
+    "ray",
+    "ray_query",
 ];
 
 /// Why something is not as expected.
@@ -67,6 +70,7 @@ impl Scene<'_> {
             Some("bytes") => self.bytes(node)?,
             Some("same") => self.same(node)?,
             Some("smaller") => self.smaller(node)?,
+            Some(word @ ("ray" | "ray_query")) => self.ray(node, word == "ray_query")?,
             head => {
                 let mistake = node.mistake(format!("{} is no expectation", node.describe()));
                 return Err(mistake.nearest(head.unwrap_or_default(), WORDS.iter().copied()));

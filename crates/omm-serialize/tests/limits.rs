@@ -42,7 +42,7 @@ fn inputs(size: usize) -> Vec<(&'static str, Vec<u8>)> {
     let overlapping: Vec<u8> = [0_u64, n / 8 - 10].iter().flat_map(|n| n.to_le_bytes()).collect();
     let whole = (size - 56) / 16;
     let mut ours = header(n, n, 0, &[0], size);
-    ours[56..64].copy_from_slice(b"ommobj01");
+    ours[56..64].copy_from_slice(b"ommobj02");
     ours[64] = 1;
     let mut object = ours.clone();
     object[72..80].copy_from_slice(&(n - 56).to_le_bytes());

@@ -113,7 +113,7 @@ fn contradictions_are_named() {
     };
     let (leaf, card, scene) = (micromap(1), blas(&[8, 9]), tlas(&[7, 0]));
     assert_eq!(error(&leaf, 40, 1), "deserialized_size at byte 40: found 1, required 88");
-    assert_eq!(error(&leaf, 56, b'x'), r#"payload.magic at byte 56: found "xmmobj01", required "ommobj01""#);
+    assert_eq!(error(&leaf, 56, b'x'), r#"payload.magic at byte 56: found "xmmobj02", required "ommobj02""#);
     assert_eq!(error(&leaf, 56 + 16, 87), "payload.size at byte 72: found 87, required 88");
     assert_eq!(
         error(&leaf, 56 + 64 + 8, 13),

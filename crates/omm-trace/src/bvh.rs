@@ -14,7 +14,7 @@
 //! - the two margins above are wider than the rounding in the triangle test, so they also keep whatever that test
 //!   would hit.
 
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 
 use glam::Vec4;
 
@@ -58,16 +58,11 @@ struct Pair {
     nodes: [Node; 2],
 }
 
-/// What is still to be visited; reused by all walks of a ray.
+/// A walk through a tree, which can be left and taken up again: what is still to be visited.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stack {
+pub(crate) struct Walk {
     entries: [(Node, f32); MAX_DEPTH],
-}
-
-impl Stack {
-    pub(crate) const fn new() -> Self {
-        Self { entries: [(Node { first: 0, count: 0 }, 0.0); MAX_DEPTH] }
-    }
+    depth: usize,
 }
 
 impl Bvh {
@@ -75,57 +70,60 @@ impl Bvh {
     pub(crate) fn items(&self) -> &[u32] {
         &self.items
     }
+}
 
-    /// Visits every slot whose box the ray can meet with a `t` of at most `limit`, nearer ones first by and large.
-    /// Each visit answers with the new limit, or ends the walk.
-    pub(crate) fn walk<F>(&self, ray: &BoxRay, stack: &mut Stack, mut limit: f32, mut visit: F) -> ControlFlow<()>
-    where
-        F: FnMut(Range<usize>, f32) -> ControlFlow<(), f32>,
-    {
-        let Some(mut node) = self.root else { return ControlFlow::Continue(()) };
-        let mut bound = ray.bound(limit);
-        let mut depth = 0_usize;
-        loop {
-            let nearer = if node.count > 0 {
-                let first = node.first as usize;
-                let new_limit = visit(first..first + node.count as usize, limit)?;
-                if new_limit < limit {
-                    limit = new_limit;
-                    bound = ray.bound(limit);
-                }
-                None
-            } else {
-                let Some(pair) = self.pairs.get(node.first as usize) else { return ControlFlow::Continue(()) };
-                let [left, right] = ray.enter(&pair.planes, bound);
-                match (left, right) {
+impl Walk {
+    /// A walk that is over.
+    pub(crate) const fn new() -> Self {
+        Self { entries: [(Node { first: 0, count: 0 }, 0.0); MAX_DEPTH], depth: 0 }
+    }
+
+    /// Begins anew, at the root of `bvh`.
+    pub(crate) fn begin(&mut self, bvh: &Bvh) {
+        self.depth = 0;
+        if let Some((entry, root)) = self.entries.first_mut().zip(bvh.root) {
+            *entry = (root, f32::NEG_INFINITY);
+            self.depth = 1;
+        }
+    }
+
+    /// The slots of the next leaf whose box the ray can meet with a `t` of at most `limit`, nearer ones first by and
+    /// large; `None` once the walk is over.
+    #[inline]
+    pub(crate) fn next(&mut self, bvh: &Bvh, ray: &BoxRay, limit: f32) -> Option<Range<usize>> {
+        let bound = ray.bound(limit);
+        let mut depth = self.depth;
+        let leaf = 'walk: loop {
+            let Some(last) = depth.checked_sub(1) else { break None };
+            depth = last;
+            let Some(&(mut node, at)) = self.entries.get(last) else { continue };
+            if at > bound {
+                continue;
+            }
+            while node.count == 0 {
+                let Some(pair) = bvh.pairs.get(node.first as usize) else { break 'walk None };
+                let [left, right] = pair.nodes;
+                node = match ray.enter(&pair.planes, bound).into() {
                     (Some(left_at), Some(right_at)) => {
-                        let [left, right] = pair.nodes;
                         let (near, far) =
                             if right_at < left_at { (right, (left, left_at)) } else { (left, (right, right_at)) };
                         // The builder's depth limit leaves room for one entry a level.
-                        if let Some(entry) = stack.entries.get_mut(depth) {
+                        if let Some(entry) = self.entries.get_mut(depth) {
                             *entry = far;
                             depth += 1;
                         }
-                        Some(near)
+                        near
                     }
-                    (Some(_), None) => Some(pair.nodes[0]),
-                    (None, Some(_)) => Some(pair.nodes[1]),
-                    (None, None) => None,
-                }
-            };
-            node = match nearer {
-                Some(node) => node,
-                None => loop {
-                    let Some(next) = depth.checked_sub(1) else { return ControlFlow::Continue(()) };
-                    depth = next;
-                    match stack.entries.get(depth) {
-                        Some(&(node, at)) if at <= bound => break node,
-                        _ => {}
-                    }
-                },
-            };
-        }
+                    (Some(_), None) => left,
+                    (None, Some(_)) => right,
+                    (None, None) => continue 'walk,
+                };
+            }
+            let first = node.first as usize;
+            break Some(first..first + node.count as usize);
+        };
+        self.depth = depth;
+        leaf
     }
 }
 

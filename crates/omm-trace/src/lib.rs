@@ -1,15 +1,32 @@
 //! Ray traversal over what the simulated device built.
 //!
 //! [`Scene::load`] reads a top-level acceleration structure and all that it refers to out of memory, in the packed
-//! form of [`omm_layout::object`]; [`Scene::trace`] follows one ray through it as the chapter *Ray Traversal*
-//! describes, calls [`Shaders`] where a pipeline would, and adds up in [`Counters`] what happened.
+//! form of [`omm_layout::object`]. Rays are followed through it as the chapter *Ray Traversal* describes:
+//! [`Scene::trace`] calls [`Shaders`] where a pipeline would, and a [`RayQuery`] stops where a ray query would. Both
+//! add up in [`Counters`] what happened.
 //!
 //! | room | holds |
 //! |---|---|
-//! | [`ray`], [`flags`] | the operands of a trace instruction |
+//! | [`ray`], [`flags`] | the operands of a trace instruction, hit groups |
 //! | [`scene`], [`error`] | loading, and why it fails |
 //! | [`shader`], [`hit`] | any-hit and intersection shaders, and what they see |
+//! | [`query`] | ray queries and their states |
+//! | [`space`] | how an instance lies in the scene: matrices, and the ray in its space |
 //! | [`counters`] | what traversal did, in numbers |
+//!
+//! # What shaders read
+//!
+//! | built-in | here |
+//! |---|---|
+//! | `InstanceId`, `InstanceCustomIndexKHR`, `RayGeometryIndexKHR`, `PrimitiveId`, `HitKindKHR`, barycentrics | [`Candidate`], [`Hit`] |
+//! | `RayTmaxKHR` | [`Candidate::t`]; [`AabbCandidate::t_max`] in an intersection shader; [`Ray::t_max`] in a miss shader |
+//! | `RayTminKHR`, `WorldRayOriginKHR`, `WorldRayDirectionKHR`, `CurrentRayTimeNV` | [`Ray`] |
+//! | `IncomingRayFlagsKHR`, `CullMaskKHR` | [`TraceOptions`] |
+//! | `ObjectRayOriginKHR`, `ObjectRayDirectionKHR`, `ObjectToWorldKHR`, `WorldToObjectKHR` | [`Scene::object_space`] |
+//! | `HitTriangleVertexPositionsKHR` | [`Scene::triangle_vertices`] |
+//! | which shader runs | [`TraceOptions::hit_group`], [`TraceOptions::last_shader`] |
+//!
+//! Closest-hit and miss shaders are the caller's, and so is recursion: a shader that traces calls [`Scene::trace`] again.
 //!
 //! # What is guaranteed
 //!
@@ -20,15 +37,21 @@
 //!   counted twice. A ray along the open border of a mesh hits or misses, but always the same way. Between
 //!   instances nothing is promised.
 //! - **The hierarchy loses nothing.** The candidates are those that trying every primitive would give, whatever the
-//!   transforms and directions: boxes are tested with more room than all rounding needs.
+//!   transforms, directions and times: boxes are tested with more room than all rounding needs.
 //! - **The closest hit is one.** It does not depend on the hierarchy; at equal `t` the lowest instance, geometry
 //!   and primitive wins. `t` and barycentrics are computed in `f64` and rounded to `f32` once, and ranges compare
 //!   the rounded `t`: open at both ends for triangles, closed for AABBs.
 //! - **Facing** is judged in the instance's space by the winding: a mirroring transform does not change it. By
 //!   default the front is where vertices run counterclockwise in a right-handed system (clockwise in a left-handed
 //!   one).
+//! - **Motion.** At the time of the ray every element of two matrices, or every component of two SRT transforms, is
+//!   interpolated linearly in `f64`; the transform of the latter is translation · rotation · scale, after the
+//!   quaternion was normalised. Vertices are interpolated in `f64` and rounded to `f32`, so what moves is as
+//!   watertight as what does not.
 //! - Degenerate triangles, triangles seen edge-on, inactive primitives and instances, and instances whose transform
-//!   has no inverse are never hit.
+//!   has no inverse (at the time of the ray, if they move) are never hit.
+//! - A pipeline and a ray query whose callers answer alike see the same candidates in the same order and find the same
+//!   hit.
 //!
 //! # Example
 //!
@@ -83,12 +106,16 @@ pub mod counters;
 pub mod error;
 pub mod flags;
 pub mod hit;
+pub mod query;
 pub mod ray;
 pub mod scene;
 pub mod shader;
+pub mod space;
 
 mod bvh;
 mod opacity;
+mod pipeline;
+mod placement;
 mod transform;
 mod traverse;
 mod triangle;
@@ -97,6 +124,8 @@ pub use counters::Counters;
 pub use error::{LoadError, LoadErrorKind, ObjectPath};
 pub use flags::RayFlags;
 pub use hit::{Candidate, Hit, HitKind};
-pub use ray::{Ray, RayError, TraceOptions};
+pub use query::{QueryError, RayQuery};
+pub use ray::{LastShader, Ray, RayError, TraceOptions};
 pub use scene::Scene;
 pub use shader::{AabbCandidate, AnyHit, NoShaders, ReportedHit, Shaders};
+pub use space::ObjectSpace;

@@ -3,7 +3,7 @@
 //! What becomes of the state is decided by [`omm_model::opacity::CandidateOpacity::resolve`] alone.
 
 use omm_layout::object::MicromapObject;
-use omm_model::curve;
+use omm_model::curve::TieBreak;
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::opacity::OpacityState;
@@ -52,9 +52,9 @@ impl Micromap {
     }
 
     /// The state of a triangle at a point.
-    pub(crate) fn state(&self, triangle: u32, [u, v]: [f32; 2]) -> Option<OpacityState> {
+    fn state(&self, triangle: u32, [u, v]: [f32; 2], tie_break: TieBreak) -> Option<OpacityState> {
         let MicromapTriangle { offset, level, format } = *self.triangles.get(triangle as usize)?;
-        format.state(self.bytes.get(offset..)?, curve::index(u, v, level).into())
+        format.state(self.bytes.get(offset..)?, tie_break.index(u, v, level).into())
     }
 }
 
@@ -64,11 +64,16 @@ impl TriangleOpacity {
     ///
     /// That a triangle's index lies within the micromap was proved when the scene was loaded.
     #[inline]
-    pub(crate) fn state(self, micromap: Option<&Micromap>, barycentrics: [f32; 2]) -> Option<OpacityState> {
+    pub(crate) fn state(
+        self,
+        micromap: Option<&Micromap>,
+        barycentrics: [f32; 2],
+        tie_break: TieBreak,
+    ) -> Option<OpacityState> {
         match self {
             Self::Geometry => None,
             Self::Whole(state) => Some(state),
-            Self::Micromap(triangle) => micromap?.state(triangle, barycentrics),
+            Self::Micromap(triangle) => micromap?.state(triangle, barycentrics, tie_break),
         }
     }
 }

@@ -1,19 +1,16 @@
 //! A scene: a top-level structure and all that it refers to, read once and made ready for rays.
 
+use omm_model::curve::TieBreak;
 use omm_model::memory::MemoryView;
 use omm_model::vk::{DeviceAddress, GeometryInstanceFlags};
 
 use crate::bvh::{Bounds, Bvh, Planes};
 use crate::error::LoadError;
 use crate::opacity::{Micromap, TriangleOpacity};
+use crate::placement::Placement;
 use crate::transform::WorldToObject;
 
 mod load;
-
-/// Instances whose transform may grow rounding errors more than this are not put into a box: every ray visits them.
-const MAX_CONDITION: f64 = (1 << 20) as f64;
-/// How much the box of an instance is grown, in parts of the largest numbers that went into it.
-const INSTANCE_MARGIN: f64 = 1.0 / (1 << 24) as f64;
 
 /// All that rays can hit: the instances of a top-level structure, their bottom-level structures, and the micromaps
 /// of these.
@@ -27,13 +24,19 @@ pub struct Scene {
     /// Over `instances[..boxed]`, which lie in the order of its slots.
     pub(crate) bvh: Bvh,
     pub(crate) boxed: usize,
+    /// Where each instance lies, in the order of `instances`.
+    pub(crate) placements: Vec<Placement>,
+    /// For each instance of the top-level structure its position in `instances`; `u32::MAX` if no ray can reach it.
+    pub(crate) slots: Vec<u32>,
+    pub(crate) tie_break: TieBreak,
     bounds: Option<Bounds>,
 }
 
 /// An active instance that rays can reach.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Instance {
-    pub(crate) to_object: WorldToObject,
+    /// At all times; `None` if the instance moves.
+    pub(crate) to_object: Option<WorldToObject>,
     pub(crate) blas: u32,
     pub(crate) instance_id: u32,
     pub(crate) custom_index: u32,
@@ -48,6 +51,8 @@ pub(crate) struct Blas {
     pub(crate) geometries: Vec<Geometry>,
     /// In the order of the slots of `triangle_bvh`.
     pub(crate) triangles: Vec<Triangle>,
+    /// The vertices at time 1 of each of them; empty if none of them moves.
+    pub(crate) ends: Vec<[[f32; 3]; 3]>,
     pub(crate) triangle_bvh: Bvh,
     /// In the order of the slots of `aabb_bvh`.
     pub(crate) aabbs: Vec<Aabb>,
@@ -66,6 +71,7 @@ pub(crate) struct Geometry {
 /// An active triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Triangle {
+    /// At time 0, if they move.
     pub(crate) vertices: [[f32; 3]; 3],
     pub(crate) geometry: u32,
     pub(crate) primitive: u32,
@@ -87,15 +93,22 @@ impl Scene {
     ///
     /// Each bottom-level structure and each micromap is read once, however often it is referred to. What no ray can
     /// hit is left out: instances without a bottom-level structure, with an empty one, or with a transform that has
-    /// no inverse (a matrix that is not finite, or whose determinant `f64` cannot tell from zero); inactive
-    /// primitives; triangles with a vertex that is not finite; boxes with a NaN or with a lower end above the upper
-    /// one.
+    /// no inverse (a matrix that is not finite, or whose determinant `f64` cannot tell from zero; one that moves is only
+    /// left out at the times when it has none); inactive primitives; triangles with a vertex that is not finite, at time
+    /// 0 or 1; boxes with a NaN or with a lower end above the upper one.
     ///
     /// # Errors
     /// The first object that cannot be read, is not of the kind wanted, lies in the bytes of another, or
     /// contradicts another; with the way to it. What is allocated is a small multiple of the bytes read.
     pub fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Self, LoadError> {
         load::load(view, tlas)
+    }
+
+    /// The same scene on a device that breaks ties between microtriangles in another way than
+    /// [`TieBreak::Reference`]; see [`DeviceProfile::micromap_tie_break`](omm_model::profile::DeviceProfile).
+    #[must_use]
+    pub fn with_tie_break(self, tie_break: TieBreak) -> Self {
+        Self { tie_break, ..self }
     }
 
     /// Instances that rays can reach.
@@ -112,7 +125,7 @@ impl Scene {
     }
 
     /// Lowest and highest coordinates of all that rays can reach, a little grown; `None` if there is nothing, or if
-    /// an instance's transform is too ill-conditioned to say.
+    /// an instance's transform is too ill-conditioned to say or changes too much with time.
     #[must_use]
     pub fn bounds(&self) -> Option<[[f64; 3]; 2]> {
         self.bounds.map(|bounds| [bounds.low, bounds.high])

@@ -54,7 +54,8 @@ pub struct ReportedHit {
 /// The any-hit and intersection shaders of all hit groups. Which one is meant follows from the instance, geometry
 /// and record offset in the candidate.
 ///
-/// Each is called at most once for each primitive that a ray meets. In which order candidates come is not
+/// Each is called at most once for each primitive that a ray meets; the any-hit shader once for each hit that is reported
+/// for an AABB. In which order candidates come is not
 /// specified, neither by Vulkan nor here, but it is the same for the same scene and ray.
 pub trait Shaders {
     /// Decides about a non-opaque candidate. As if no shader were there, the default accepts.
@@ -67,6 +68,14 @@ pub trait Shaders {
     /// the default reports nothing.
     fn intersection(&mut self, aabb: &AabbCandidate) -> Option<ReportedHit> {
         let _ = aabb;
+        None
+    }
+
+    /// Goes on after a hit was reported, which was `accepted` or not (the result of `OpReportIntersectionKHR`), and
+    /// reports the next one, if there is one; [`AabbCandidate::t_max`] has shrunk to what was accepted. The default
+    /// reports no more.
+    fn next_intersection(&mut self, aabb: &AabbCandidate, accepted: bool) -> Option<ReportedHit> {
+        let _ = (aabb, accepted);
         None
     }
 }

@@ -7,7 +7,7 @@
 mod support;
 
 use omm_model::vk::{GeometryFlags, Instance, TransformMatrix};
-use omm_trace::{AnyHit, Candidate, Counters, Hit, Ray, Scene, TraceOptions};
+use omm_trace::{AabbCandidate, AnyHit, Candidate, Counters, Hit, Ray, ReportedHit, Scene, Shaders, TraceOptions};
 use proptest::prelude::*;
 use support::*;
 
@@ -151,6 +151,65 @@ proptest! {
                 expected.sort_unstable();
                 prop_assert_eq!(everything(&scene, &ray), expected);
             }
+        }
+    }
+}
+
+/// Notes which boxes are offered.
+#[derive(Default)]
+struct Offers(Vec<(u32, u32)>);
+
+impl Shaders for Offers {
+    fn intersection(&mut self, aabb: &AabbCandidate) -> Option<ReportedHit> {
+        self.0.push((aabb.instance_id, aabb.primitive_id));
+        None
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    /// All numbers are small integers or powers of two, so a ray that is aimed at a point of a box goes exactly through it,
+    /// corners and faces of flat boxes included.
+    #[test]
+    fn every_box_on_the_way_is_offered(
+        boxes in prop::collection::vec([[-4_i8..=4, -4_i8..=4, -4_i8..=4], [0_i8..=3, 0_i8..=3, 0_i8..=3]], 1..12),
+        instances in prop::collection::vec(([-4_i8..=4, -4_i8..=4, -4_i8..=4], -3_i32..=3, any::<bool>()), 1..5),
+        rays in prop::collection::vec(
+            ([-9_i8..=9, -9_i8..=9, -9_i8..=9], any::<prop::sample::Index>(), [0_u8..=2, 0_u8..=2, 0_u8..=2]), 32
+        ),
+    ) {
+        let corners: Vec<[[f32; 3]; 2]> = boxes
+            .iter()
+            .map(|[low, size]| [low.map(f32::from), std::array::from_fn(|i| f32::from(low[i]) + f32::from(size[i]))])
+            .collect();
+        let mut memory = Memory::default();
+        let blas = memory.blas(vec![aabbs(GeometryFlags::empty(), &corners)]);
+        let matrices: Vec<[[f32; 4]; 3]> = instances
+            .iter()
+            .map(|&(shift, scale, turned)| {
+                let ([x, y, z], s) = (shift.map(f32::from), 2.0_f32.powi(scale));
+                if turned {
+                    [[0.0, s, 0.0, x], [0.0, 0.0, -s, y], [s, 0.0, 0.0, z]]
+                } else {
+                    [[s, 0.0, 0.0, x], [0.0, s, 0.0, y], [0.0, 0.0, s, z]]
+                }
+            })
+            .collect();
+        let scene = memory.scene(matrices.iter().map(|&matrix| with_transform(blas, matrix)).collect());
+        for (origin, at, part) in rays {
+            let at = at.index(corners.len() * matrices.len());
+            let (instance_id, primitive_id) = (at / corners.len(), at % corners.len());
+            let [low, high] = corners[primitive_id];
+            let [x, y, z]: [f32; 3] = std::array::from_fn(|i| low[i] + 0.5 * f32::from(part[i]) * (high[i] - low[i]));
+            let target = matrices[instance_id].map(|[a, b, c, t]| a * x + b * y + c * z + t);
+            let origin = origin.map(f32::from);
+            let Ok(ray) = Ray::new(origin, std::array::from_fn(|i| target[i] - origin[i]), 0.5, 1.0) else { continue };
+            let mut offers = Offers::default();
+            scene.trace(&ray, &TraceOptions::default(), &mut offers, &mut Counters::default());
+            prop_assert!(offers.0.contains(&(instance_id as u32, primitive_id as u32)), "{:?}", ray);
+            offers.0.sort_unstable();
+            prop_assert!(offers.0.windows(2).all(|pair| pair[0] != pair[1]), "offered twice");
         }
     }
 }

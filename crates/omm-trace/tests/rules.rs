@@ -7,14 +7,9 @@ use omm_model::opacity::OpacityState;
 use omm_model::special_index::{OpacityMicromapSpecialIndex, TriangleMap};
 use omm_model::vk::{GeometryFlags, GeometryInstanceFlags, Instance};
 use omm_trace::{
-    AabbCandidate, AnyHit, Candidate, Counters, HitKind, NoShaders, Ray, RayFlags, ReportedHit, Scene, Shaders,
-    TraceOptions,
+    AabbCandidate, AnyHit, Candidate, Counters, HitKind, NoShaders, Ray, RayFlags, ReportedHit, Shaders, TraceOptions,
 };
 use support::*;
-
-fn plain(z: f32) -> omm_layout::object::BlasGeometry {
-    triangles(GeometryFlags::empty(), [unit_triangle(z)])
-}
 
 fn range(t_min: f32, t_max: f32) -> Ray {
     Ray::new([0.25, 0.25, 1.0], [0.0, 0.0, -1.0], t_min, t_max).unwrap()
@@ -198,14 +193,6 @@ fn an_empty_scene_is_missed() {
     let scene = Memory::default().scene(vec![]);
     assert_eq!(closest(&scene, &down(0.0, 0.0)), None);
     assert_eq!(scene.bounds(), None);
-}
-
-/// Triangles at heights 0, -1, … with these states for the whole of each.
-fn stack(states: &[OpacityState]) -> Scene {
-    let special = |state| TriangleMap::SpecialIndex(OpacityMicromapSpecialIndex::of_state(state));
-    let list: Vec<_> =
-        (0_u8..).zip(states).map(|(at, &state)| (unit_triangle(-f32::from(at)), special(state))).collect();
-    scene_of(mapped(GeometryFlags::empty(), 0, &list))
 }
 
 #[test]

@@ -152,8 +152,7 @@ impl Kind {
             }
             Object::TopLevel(object) => Self::TopLevel {
                 instances: object.instance_count(),
-                active: object.instances().filter(|instance| instance.acceleration_structure_reference != 0).count()
-                    as u64,
+                active: object.instances().filter(|it| it.acceleration_structure_reference() != 0).count() as u64,
             },
         }
     }

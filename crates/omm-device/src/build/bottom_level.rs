@@ -1,14 +1,16 @@
 //! Bottom-level builds: triangles, with or without a micromap, and axis-aligned boxes.
 
 use omm_layout::index::IndexType;
-use omm_layout::object::{BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, TriangleVertices};
+use omm_layout::object::{
+    BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, MovingMappedTriangle, MovingVertices, TriangleVertices,
+};
 use omm_layout::vertex::VertexFormat;
 use omm_layout::{aabb, transform};
 use omm_model::call::Timeline;
 use omm_model::vk;
 
 use super::access::Access;
-use super::attached::Attached;
+use super::attached::{Attached, Maps};
 use super::geometry::{self, Body, Items};
 use crate::device::Device;
 use crate::memory::{Address, add};
@@ -44,24 +46,38 @@ impl Device {
             Body::Triangles(data) => {
                 let at = format!("{at}.geometry.triangles");
                 let triangles = self.triangles(data, range, timeline).at(&at)?;
-                let Some(attached) = Attached::of(data, timeline).at(&at)? else {
-                    return Ok(BlasPrimitives::Triangles(triangles));
-                };
-                let at = format!("{at}.{}", attached.structure);
-                let maps = self.maps(&attached, &triangles, timeline, access, &at).at(&at)?;
-                let triangles = triangles.into_iter().zip(maps.maps);
-                let mapped =
-                    |(vertices, map): (Option<_>, Option<_>)| Some(MappedTriangle { vertices: vertices?, map: map? });
-                Ok(BlasPrimitives::MicromapTriangles {
-                    micromap: maps.micromap,
-                    triangles: triangles.map(mapped).collect(),
-                })
+                let ends = self.ends(data, range, timeline).at(&at)?;
+                match Attached::of(data, timeline).at(&at)? {
+                    Some(attached) => {
+                        let at = format!("{at}.{}", attached.structure);
+                        let maps = self.maps(&attached, &triangles, timeline, access, &at).at(&at)?;
+                        Ok(mapped(triangles, ends, maps))
+                    }
+                    None => Ok(match ends {
+                        None => BlasPrimitives::Triangles(triangles),
+                        Some(ends) => BlasPrimitives::MovingTriangles(moving(triangles, ends).collect()),
+                    }),
+                }
             }
             Body::Aabbs(data) => {
                 Ok(BlasPrimitives::Aabbs(self.aabbs(data, range, timeline).at("geometry.aabbs").at(at)?))
             }
             _ => Err(Reason::GeometryType { found: geometry.geometry_type }).at("geometryType").at(at),
         }
+    }
+
+    /// The triangles of a geometry at time 1, if it has motion: with the same indices and the same transformation.
+    fn ends(
+        &self,
+        data: &vk::GeometryTrianglesData,
+        range: &vk::BuildRangeInfo,
+        timeline: Timeline,
+    ) -> Result<Option<Vec<Option<TriangleVertices>>>, Stop> {
+        let Some(motion) = data.motion_data() else { return Ok(None) };
+        let end = vk::GeometryTrianglesData { vertex_data: motion.vertex_data, ..data.clone() };
+        self.triangles(&end, range, timeline)
+            .at("pNext<VkAccelerationStructureGeometryMotionTrianglesDataNV>")
+            .map(Some)
     }
 
     /// The triangles of a geometry, transformed; `None` for an inactive one.
@@ -168,6 +184,37 @@ impl Device {
             }
         };
         (0..count).map(positions).collect()
+    }
+}
+
+/// Triangles at the times 0 and 1; one that is inactive at either time is inactive.
+fn moving(
+    starts: Vec<Option<TriangleVertices>>,
+    ends: Vec<Option<TriangleVertices>>,
+) -> impl Iterator<Item = Option<MovingVertices>> {
+    starts.into_iter().zip(ends).map(|(start, end)| Some([start?, end?]))
+}
+
+/// Triangles with what each has of a micromap.
+fn mapped(
+    triangles: Vec<Option<TriangleVertices>>,
+    ends: Option<Vec<Option<TriangleVertices>>>,
+    maps: Maps,
+) -> BlasPrimitives {
+    let Maps { micromap, maps } = maps;
+    match ends {
+        None => {
+            let mapped =
+                |(vertices, map): (Option<_>, Option<_>)| Some(MappedTriangle { vertices: vertices?, map: map? });
+            let triangles = triangles.into_iter().zip(maps).map(mapped).collect();
+            BlasPrimitives::MicromapTriangles { micromap, triangles }
+        }
+        Some(ends) => {
+            let mapped =
+                |(vertices, map): (Option<_>, Option<_>)| Some(MovingMappedTriangle { vertices: vertices?, map: map? });
+            let triangles = moving(triangles, ends).zip(maps).map(mapped).collect();
+            BlasPrimitives::MovingMicromapTriangles { micromap, triangles }
+        }
     }
 }
 

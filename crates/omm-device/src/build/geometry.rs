@@ -23,12 +23,7 @@ pub(crate) enum Body<'a> {
 pub(crate) fn body(geometry: &vk::Geometry) -> Result<Body<'_>, Stop> {
     let found = geometry.geometry_type;
     match (found, &geometry.geometry) {
-        (vk::GeometryType::TRIANGLES, vk::GeometryData::Triangles(triangles)) => {
-            if triangles.motion_data().is_some() {
-                return Err(Reason::Unsupported { what: "motion" }).at("geometry.triangles.pNext");
-            }
-            Ok(Body::Triangles(triangles))
-        }
+        (vk::GeometryType::TRIANGLES, vk::GeometryData::Triangles(triangles)) => Ok(Body::Triangles(triangles)),
         (vk::GeometryType::AABBS, vk::GeometryData::Aabbs(aabbs)) => Ok(Body::Aabbs(aabbs)),
         (vk::GeometryType::INSTANCES, vk::GeometryData::Instances(instances)) => Ok(Body::Instances(instances)),
         (vk::GeometryType::MICROMAP, _) => {

@@ -24,9 +24,6 @@ pub(crate) fn query(
         return Err(Reason::UnknownValue { found: build_type.0.into() }).at("buildType");
     }
     let kind = kind_of(info.ty).ok_or(Reason::UnknownValue { found: info.ty.0.into() }).at("pBuildInfo->type")?;
-    if info.flags.contains(vk::BuildAccelerationStructureFlags::MOTION) {
-        return Err(Reason::Unsupported { what: "motion" }).at("pBuildInfo->flags");
-    }
     let required = if kind == ObjectKind::Micromap { 0 } else { info.geometries_iter().count() as u64 };
     let counts = match max_primitive_counts {
         Some(counts) => counts,
@@ -90,7 +87,7 @@ pub(crate) fn structure_size(
         ObjectKind::TopLevel => {
             let (geometry, at) = geometry::only(info)?;
             match geometry::body(geometry).at(&at)? {
-                Body::Instances(_) => Ok(tlas_size(counts.first().copied().unwrap_or_default())),
+                Body::Instances(_) => Ok(tlas_size(counts.first().copied().unwrap_or_default(), info.flags)),
                 _ => Err(Reason::GeometryType { found: geometry.geometry_type }).at("geometryType").at(at),
             }
         }
@@ -100,7 +97,8 @@ pub(crate) fn structure_size(
 fn geometry_size(geometry: &vk::Geometry, count: u32) -> Result<BlasGeometrySize, Stop> {
     match geometry::body(geometry)? {
         Body::Triangles(triangles) => {
-            Ok(BlasGeometrySize::Triangles { count, micromap: super::attached::is_attached(triangles) })
+            let (micromap, motion) = (super::attached::is_attached(triangles), triangles.motion_data().is_some());
+            Ok(BlasGeometrySize::Triangles { count, micromap, motion })
         }
         Body::Aabbs(_) => Ok(BlasGeometrySize::Aabbs { count }),
         _ => Err(Reason::GeometryType { found: geometry.geometry_type }).at("geometryType"),

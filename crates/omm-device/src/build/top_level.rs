@@ -1,11 +1,11 @@
-//! Top-level builds: instances are stored as they are given; which structures they refer to is looked at, not into.
+//! Top-level builds: instances, moving or not, are stored as they are given; which structures they refer to is looked at, not into.
 
 use std::collections::BTreeSet;
 
-use omm_layout::instance;
-use omm_layout::object::{ObjectHeader, TlasContents};
+use omm_layout::object::{MotionTlasContents, ObjectHeader, TlasContents};
+use omm_layout::{instance, motion_instance};
 use omm_model::call::Timeline;
-use omm_model::vk;
+use omm_model::vk::{self, MotionInstanceData};
 
 use super::access::Access;
 use super::geometry::{self, Body, Items};
@@ -27,9 +27,10 @@ impl Device {
             return Err(Reason::GeometryType { found: geometry.geometry_type }).at("geometryType").at(at);
         };
         let range = ranges.first().copied().unwrap_or_default();
-        let instances = self.instances(data, range, timeline).at("geometry.instances").at(at)?;
+        let motion = info.flags.contains(vk::BuildAccelerationStructureFlags::MOTION);
+        let instances = self.instances(data, range, timeline, motion).at("geometry.instances").at(at)?;
         let referenced: BTreeSet<u64> =
-            instances.iter().map(|instance| instance.acceleration_structure_reference).collect();
+            instances.iter().map(MotionInstanceData::acceleration_structure_reference).collect();
         for address in referenced {
             // What is not built yet has only its address in common with others.
             let size =
@@ -38,7 +39,19 @@ impl Device {
                 access.read(place, format!("pGeometries[0].geometry.instances.data<{address:#x}>"));
             }
         }
-        Ok(TlasContents { flags: info.flags.bits(), instances }.encode().map_err(super::too_large)?)
+        let flags = info.flags.bits();
+        let statics = || {
+            let only_static = |instance| match instance {
+                MotionInstanceData::StaticInstance(found) => Some(found),
+                _ => None,
+            };
+            instances.iter().copied().filter_map(only_static).collect()
+        };
+        let bytes = match motion {
+            true => MotionTlasContents { flags, instances }.encode(),
+            false => TlasContents { flags, instances: statics() }.encode(),
+        };
+        Ok(bytes.map_err(super::too_large)?)
     }
 
     fn instances(
@@ -46,41 +59,69 @@ impl Device {
         data: &vk::GeometryInstancesData,
         range: vk::BuildRangeInfo,
         timeline: Timeline,
-    ) -> Result<Vec<vk::Instance>, Stop> {
+        motion: bool,
+    ) -> Result<Vec<MotionInstanceData>, Stop> {
         let count = u64::from(range.primitive_count);
         if count == 0 {
             return Ok(Vec::new());
         }
         let address = Address::of(timeline, data.data).at("data")?;
         let pointers = data.array_of_pointers.is_true();
-        let size = if pointers { 8 } else { instance::SIZE as u64 };
+        let (stride, size) = match (pointers, motion) {
+            (true, _) => (8, 8),
+            (false, true) => (motion_instance::STRIDE, motion_instance::SIZE as u64),
+            (false, false) => (instance::SIZE as u64, instance::SIZE as u64),
+        };
         let items =
-            Items::new(&self.memory, (address, range.primitive_offset.into()), (size, size), count).at("data")?;
+            Items::new(&self.memory, (address, range.primitive_offset.into()), (stride, size), count).at("data")?;
         let mut instances = Vec::new();
         for index in 0..count {
             let at = format_args!("data[{index}]");
             let item = items.get(index).at(at)?;
-            let item = if pointers {
-                let pointer = item.first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
-                self.memory.read(address.same(pointer), instance::SIZE as u64).at(at)?
-            } else {
-                item
-            };
-            let mut found = instance::read(item).at(at)?;
-            let reference = &mut found.acceleration_structure_reference;
-            if *reference != 0 {
-                let at = format_args!("{at}.accelerationStructureReference");
-                match timeline {
-                    Timeline::Device if self.structures.has_address(*reference) => {}
-                    Timeline::Device => return Err(Reason::UnknownReference { address: *reference }).at(at),
-                    // Instances in host memory name structures by handle.
-                    Timeline::Host => {
-                        *reference = self.range(vk::AccelerationStructure(*reference).into()).at(at)?.address;
-                    }
+            let found = match (pointers, motion) {
+                (true, _) => self.pointed_to(address, item, motion).at(at)?,
+                (false, true) => {
+                    let ty = item.first_chunk().map_or(0, |bytes| i32::from_le_bytes(*bytes));
+                    data_size(vk::MotionInstanceType(ty)).at(at)?;
+                    motion_instance::read(item).at(at)?
                 }
-            }
-            instances.push(found);
+                (false, false) => MotionInstanceData::StaticInstance(instance::read(item).at(at)?),
+            };
+            instances.push(self.referring(found, timeline).at(at)?);
         }
         Ok(instances)
     }
+
+    /// The instance that an entry of an array of pointers leads to; with motion the pointer's lowest bits are its type.
+    fn pointed_to(&self, array: Address, entry: &[u8], motion: bool) -> Result<MotionInstanceData, Stop> {
+        let pointer = entry.first_chunk().map_or(0, |bytes| u64::from_le_bytes(*bytes));
+        let ty = if motion { pointer & motion_instance::POINTER_TYPE } else { 0 };
+        let ty = vk::MotionInstanceType(ty as i32);
+        let size = data_size(ty)?;
+        let pointer = if motion { pointer & !motion_instance::POINTER_TYPE } else { pointer };
+        Ok(motion_instance::read_data(ty, self.memory.read(array.same(pointer), size)?)?)
+    }
+
+    /// The instance with the device address of what it refers to.
+    fn referring(&self, found: MotionInstanceData, timeline: Timeline) -> Result<MotionInstanceData, Stop> {
+        let reference = found.acceleration_structure_reference();
+        match timeline {
+            _ if reference == 0 => Ok(found),
+            Timeline::Device if self.structures.has_address(reference) => Ok(found),
+            Timeline::Device => {
+                Err(Reason::UnknownReference { address: reference }).at("accelerationStructureReference")
+            }
+            // Instances in host memory name structures by handle.
+            Timeline::Host => {
+                let range = self.range(vk::AccelerationStructure(reference).into());
+                Ok(found.with_reference(range.at("accelerationStructureReference")?.address))
+            }
+        }
+    }
+}
+
+/// Bytes of an instance of a type.
+fn data_size(ty: vk::MotionInstanceType) -> Result<u64, Stop> {
+    let size = motion_instance::data_size(ty).ok_or(Reason::UnknownValue { found: ty.0.into() });
+    Ok(size.at("type")? as u64)
 }

@@ -45,7 +45,8 @@ impl Device {
                 if free { Ok(()) } else { self.same_micromaps(&source, &update).at(at) }
             }
             (Object::TopLevel(source), Object::TopLevel(update)) => {
-                let active = |instance: vk::Instance| u64::from(instance.acceleration_structure_reference != 0);
+                let active =
+                    |instance: vk::MotionInstanceData| u64::from(instance.acceleration_structure_reference() != 0);
                 let pairs = source.instances().map(active).zip(update.instances().map(active));
                 pairs.into_iter().try_for_each(|(old, new)| same("active instances", old, new)).at(at)
             }

@@ -246,8 +246,6 @@ fn builds(scene: &mut Scene<'_>) {
     scene.submission_stops("ppBuildRangeInfos[0]", "Missing", build(vec![info.clone()], vec![None]));
     let twice = build(vec![info.clone(), info], vec![ranges.clone(), ranges]);
     scene.submission_stops("pInfos[1].scratchData", "Overlap", twice);
-    scene
-        .build_stops("pInfos[0].flags", "Unsupported", |info| info.flags = vk::BuildAccelerationStructureFlags::MOTION);
     scene.build_stops("ppBuildRangeInfos[0]", "CountMismatch", |info| info.geometries = None);
     let at = "pInfos[0].pGeometries[0].geometryType";
     scene.build_stops(at, "GeometryType", |info| info.ty = vk::AccelerationStructureType::TOP_LEVEL);

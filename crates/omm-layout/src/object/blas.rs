@@ -47,6 +47,15 @@ pub enum BlasPrimitives {
         /// The triangles.
         triangles: Vec<Option<MappedTriangle>>,
     },
+    /// Triangles that move, without a micromap.
+    MovingTriangles(Vec<Option<MovingVertices>>),
+    /// Triangles that move, with a micromap as above.
+    MovingMicromapTriangles {
+        /// Device address of the micromap; 0 for a null one.
+        micromap: u64,
+        /// The triangles.
+        triangles: Vec<Option<MovingMappedTriangle>>,
+    },
     /// Axis-aligned boxes.
     Aabbs(Vec<Option<vk::AabbPositions>>),
 }
@@ -57,6 +66,18 @@ pub struct MappedTriangle {
     /// The vertices.
     pub vertices: TriangleVertices,
     /// Its entry of the micromap index buffer, base triangle added; the index is at most `i32::MAX`.
+    pub map: TriangleMap,
+}
+
+/// The vertices of a triangle at the times 0 and 1.
+pub type MovingVertices = [TriangleVertices; 2];
+
+/// A triangle that moves, of a geometry with a micromap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovingMappedTriangle {
+    /// The vertices.
+    pub vertices: MovingVertices,
+    /// As in [`MappedTriangle`].
     pub map: TriangleMap,
 }
 
@@ -78,6 +99,8 @@ pub enum BlasGeometrySize {
         count: u32,
         /// Whether a micromap, null or not, is attached.
         micromap: bool,
+        /// Whether the vertices move.
+        motion: bool,
     },
     /// Axis-aligned boxes.
     Aabbs {
@@ -91,12 +114,11 @@ pub enum BlasGeometrySize {
 pub fn blas_size(geometries: impl IntoIterator<Item = BlasGeometrySize>) -> Option<u64> {
     geometries.into_iter().try_fold(ObjectHeader::SIZE, |size, geometry| {
         let (layout, count) = match geometry {
-            BlasGeometrySize::Triangles { count, micromap: false } => (Layout::Triangles, count),
-            BlasGeometrySize::Triangles { count, micromap: true } => (Layout::MappedTriangles, count),
+            BlasGeometrySize::Triangles { count, micromap, motion } => (Layout::of_triangles(micromap, motion), count),
             BlasGeometrySize::Aabbs { count } => (Layout::Aabbs, count),
         };
         // Every geometry with a micromap has room for a reference, needed or not.
-        let reference = if layout == Layout::MappedTriangles { 8 } else { 0 };
+        let reference = if layout.is_mapped() { 8 } else { 0 };
         size.checked_add(reference + GeometryRecord::SIZE as u64 + layout.stride() * u64::from(count))
     })
 }
@@ -107,18 +129,16 @@ impl BlasGeometry {
     /// # Errors
     /// More than `u32::MAX` primitives.
     fn size(&self) -> Result<BlasGeometrySize, WriteError> {
-        let count = |count: usize| -> Result<u32, WriteError> {
-            fits("primitives", count as u64, u32::MAX.into())?;
-            Ok(count as u32)
-        };
-        Ok(match &self.primitives {
-            BlasPrimitives::Triangles(triangles) => {
-                BlasGeometrySize::Triangles { count: count(triangles.len())?, micromap: false }
-            }
-            BlasPrimitives::MicromapTriangles { triangles, .. } => {
-                BlasGeometrySize::Triangles { count: count(triangles.len())?, micromap: true }
-            }
-            BlasPrimitives::Aabbs(aabbs) => BlasGeometrySize::Aabbs { count: count(aabbs.len())? },
+        let (count, _) = self.primitives.counts();
+        fits("primitives", count, u32::MAX.into())?;
+        let count = count as u32;
+        let triangles = |micromap, motion| BlasGeometrySize::Triangles { count, micromap, motion };
+        Ok(match self.primitives {
+            BlasPrimitives::Triangles(_) => triangles(false, false),
+            BlasPrimitives::MicromapTriangles { .. } => triangles(true, false),
+            BlasPrimitives::MovingTriangles(_) => triangles(false, true),
+            BlasPrimitives::MovingMicromapTriangles { .. } => triangles(true, true),
+            BlasPrimitives::Aabbs(_) => BlasGeometrySize::Aabbs { count },
         })
     }
 }
@@ -145,6 +165,14 @@ impl BlasContents {
                 BlasPrimitives::MicromapTriangles { micromap, triangles } => {
                     push_mapped(&mut data, triangles).map_err(within)?;
                     (Layout::MappedTriangles, Binding::add(&mut references, *micromap))
+                }
+                BlasPrimitives::MovingTriangles(triangles) => {
+                    push_moving(&mut data, triangles);
+                    (Layout::MovingTriangles, Binding::None)
+                }
+                BlasPrimitives::MovingMicromapTriangles { micromap, triangles } => {
+                    push_moving_mapped(&mut data, triangles).map_err(within)?;
+                    (Layout::MovingMappedTriangles, Binding::add(&mut references, *micromap))
                 }
                 BlasPrimitives::Aabbs(aabbs) => {
                     push_aabbs(&mut data, aabbs);
@@ -189,6 +217,8 @@ impl BlasPrimitives {
         match self {
             Self::Triangles(triangles) => counts(triangles),
             Self::MicromapTriangles { triangles, .. } => counts(triangles),
+            Self::MovingTriangles(triangles) => counts(triangles),
+            Self::MovingMicromapTriangles { triangles, .. } => counts(triangles),
             Self::Aabbs(aabbs) => counts(aabbs),
         }
     }
@@ -221,20 +251,46 @@ fn push_triangles(out: &mut Vec<u8>, triangles: &[Option<TriangleVertices>]) {
     }
 }
 
-fn push_mapped(out: &mut Vec<u8>, triangles: &[Option<MappedTriangle>]) -> Result<(), WriteError> {
+fn push_moving(out: &mut Vec<u8>, triangles: &[Option<MovingVertices>]) {
     for (index, triangle) in triangles.iter().enumerate() {
-        if let Some(MappedTriangle { map: TriangleMap::Triangle(found), .. }) = *triangle {
+        push_primitive(out, Layout::MovingTriangles, index, triangle, |out, vertices| {
+            push_f32s(out, vertices.as_flattened().as_flattened().iter().copied());
+        });
+    }
+}
+
+/// The number that stands for what a triangle has of a micromap.
+fn map_value(index: usize, map: Option<TriangleMap>) -> Result<i32, WriteError> {
+    match map {
+        None => Ok(0),
+        Some(TriangleMap::SpecialIndex(special)) => Ok(special.value()),
+        Some(TriangleMap::Triangle(found)) => {
             let within = |error: WriteError| error.within(format_args!("triangles[{index}]"));
             fits("map", found.into(), i32::MAX as u64).map_err(within)?;
+            Ok(found as i32)
         }
+    }
+}
+
+fn push_mapped(out: &mut Vec<u8>, triangles: &[Option<MappedTriangle>]) -> Result<(), WriteError> {
+    for (index, triangle) in triangles.iter().enumerate() {
+        let map = map_value(index, triangle.map(|triangle| triangle.map))?;
         push_primitive(out, Layout::MappedTriangles, index, triangle, |out, triangle| {
             push_f32s(out, triangle.vertices.as_flattened().iter().copied());
-            let map = match triangle.map {
-                TriangleMap::SpecialIndex(special) => special.value(),
-                // Proved above to be in range.
-                TriangleMap::Triangle(index) => index as i32,
-            };
             out.extend_from_slice(&map.to_le_bytes());
+        });
+    }
+    Ok(())
+}
+
+fn push_moving_mapped(out: &mut Vec<u8>, triangles: &[Option<MovingMappedTriangle>]) -> Result<(), WriteError> {
+    for (index, triangle) in triangles.iter().enumerate() {
+        let map = map_value(index, triangle.map(|triangle| triangle.map))?;
+        push_primitive(out, Layout::MovingMappedTriangles, index, triangle, |out, triangle| {
+            let [start, end] = triangle.vertices;
+            push_f32s(out, start.as_flattened().iter().copied());
+            out.extend_from_slice(&map.to_le_bytes());
+            push_f32s(out, end.as_flattened().iter().copied());
         });
     }
     Ok(())

@@ -1,9 +1,11 @@
 //! A built object field by field: what each of its bytes is.
 
 use omm_model::opacity::OpacityState;
+use omm_model::vk::MotionInstanceData;
 
 use super::header::{ObjectForm, ObjectHeader};
-use super::{BlasObject, GeometryKind, MicromapObject, Object, TlasObject};
+use super::{BlasObject, GeometryKind, GeometryView, MicromapObject, Object, TlasObject};
+use crate::motion_instance;
 use crate::packed::PackedStates;
 
 /// One run of bytes of an object and what it means.
@@ -170,19 +172,26 @@ impl<'a> Walk<'a, '_> {
                     entry => format!("references[{entry}]"),
                 },
             );
-            self.reserved(4, || name("reserved"));
+            self.field(
+                4,
+                || name("motion"),
+                |bytes| match number(bytes) {
+                    0 => "0 (none)".to_owned(),
+                    other => format!("{other} (vertices at time 1)"),
+                },
+            );
             self.field(8, || name("data_offset"), |bytes| number(bytes).to_string());
-            stored.push((geometry.kind(), geometry.micromap().is_some(), count));
+            stored.push((geometry, count));
         }
-        for (geometry, (kind, mapped, count)) in stored.into_iter().enumerate() {
+        for (index, (geometry, count)) in stored.into_iter().enumerate() {
             for record in 0..count {
-                let at = format!("geometries[{geometry}].primitives[{record}]");
-                self.primitive(&at, kind, mapped);
+                let at = format!("geometries[{index}].primitives[{record}]");
+                self.primitive(&at, &geometry);
             }
         }
     }
 
-    fn primitive(&mut self, at: &str, kind: GeometryKind, mapped: bool) {
+    fn primitive(&mut self, at: &str, geometry: &GeometryView<'_>) {
         let name = |field: &str| format!("{at}.{field}");
         let mut inactive = false;
         self.field(
@@ -193,13 +202,18 @@ impl<'a> Walk<'a, '_> {
                 if inactive { "inactive".to_owned() } else { number(bytes).to_string() }
             },
         );
+        let kind = geometry.kind();
         let corners: &[&str] = match kind {
             GeometryKind::Triangles => &["vertex 0", "vertex 1", "vertex 2"],
             GeometryKind::Aabbs => &["lower corner", "upper corner"],
         };
-        let map = if mapped && kind == GeometryKind::Triangles { 4 } else { 0 };
+        let map = if geometry.micromap().is_some() && kind == GeometryKind::Triangles { 4 } else { 0 };
+        let end: &[&str] = match geometry.has_motion() {
+            true => &["vertex 0 at time 1", "vertex 1 at time 1", "vertex 2 at time 1"],
+            false => &[],
+        };
         if inactive {
-            return self.reserved(12 * corners.len() as u64 + map, || name("unused"));
+            return self.reserved(12 * (corners.len() + end.len()) as u64 + map, || name("unused"));
         }
         for corner in corners {
             self.field(12, || name(corner), floats);
@@ -218,27 +232,53 @@ impl<'a> Walk<'a, '_> {
                 }
             },
         );
+        for corner in end {
+            self.field(12, || name(corner), floats);
+        }
     }
 
     fn top_level(&mut self, object: &TlasObject<'_>) {
-        for index in 0..object.instance_count() {
+        for (index, instance) in object.instances().enumerate() {
             let name = |field: &str| format!("instances[{index}].{field}");
-            for row in 0..3 {
-                self.field(16, || name(&format!("transform row {row}")), floats);
+            let end = self.at + motion_instance::SIZE as u64;
+            if object.has_motion() {
+                let ty = match instance {
+                    MotionInstanceData::StaticInstance(_) => "0 (static)",
+                    MotionInstanceData::MatrixMotionInstance(_) => "1 (matrix motion)",
+                    MotionInstanceData::SrtMotionInstance(_) => "2 (SRT motion)",
+                };
+                self.field(4, || name("type"), |_| ty.to_owned());
+                self.reserved(4, || name("motion_flags"));
+            }
+            let rows: &[&str] = match instance {
+                MotionInstanceData::StaticInstance(_) => &["transform row 0", "transform row 1", "transform row 2"],
+                MotionInstanceData::MatrixMotionInstance(_) => &[
+                    "transformT0 row 0",
+                    "transformT0 row 1",
+                    "transformT0 row 2",
+                    "transformT1 row 0",
+                    "transformT1 row 1",
+                    "transformT1 row 2",
+                ],
+                MotionInstanceData::SrtMotionInstance(_) => &[
+                    "transformT0 sx, a, b, pvx",
+                    "transformT0 sy, c, pvy, sz",
+                    "transformT0 pvz, qx, qy, qz",
+                    "transformT0 qw, tx, ty, tz",
+                    "transformT1 sx, a, b, pvx",
+                    "transformT1 sy, c, pvy, sz",
+                    "transformT1 pvz, qx, qy, qz",
+                    "transformT1 qw, tx, ty, tz",
+                ],
+            };
+            for row in rows {
+                self.field(16, || name(row), floats);
             }
             self.field(3, || name("custom_index"), |bytes| number(bytes).to_string());
             self.field(1, || name("mask"), |bytes| format!("{:#04x}", number(bytes)));
             self.field(3, || name("record_offset"), |bytes| number(bytes).to_string());
             self.field(1, || name("flags"), |bytes| format!("{:#x}", number(bytes)));
-            let mut entry = 0;
-            self.field(
-                4,
-                || name("reference"),
-                |bytes| {
-                    entry = number(bytes);
-                    format!("references[{entry}] if active")
-                },
-            );
+            self.field(4, || name("reference"), |bytes| format!("references[{}] if active", number(bytes)));
             self.field(
                 4,
                 || name("active"),
@@ -247,6 +287,9 @@ impl<'a> Walk<'a, '_> {
                     other => format!("{other} (active)"),
                 },
             );
+            if object.has_motion() {
+                self.reserved(end.saturating_sub(self.at), || name("reserved"));
+            }
         }
     }
 }

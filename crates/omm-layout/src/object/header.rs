@@ -4,7 +4,7 @@ use crate::bytes::{self, Reader};
 use crate::error::{ReadError, ReadErrorKind};
 
 /// The first eight bytes of every built object; the last two are the version of the layout.
-pub const MAGIC: [u8; 8] = *b"ommobj01";
+pub const MAGIC: [u8; 8] = *b"ommobj02";
 
 /// What an object is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

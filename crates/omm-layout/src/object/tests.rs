@@ -45,7 +45,7 @@ fn error(mut bytes: Vec<u8>, at: usize, value: u8) -> String {
 #[test]
 fn headers() {
     let error = |at, value| error(micromap(), at, value);
-    assert_eq!(error(7, b'2'), r#"magic at byte 0: found "ommobj02", required "ommobj01""#);
+    assert_eq!(error(7, b'1'), r#"magic at byte 0: found "ommobj01", required "ommobj02""#);
     assert_eq!(error(8, 4), "kind at byte 8: found 4, required 1, 2 or 3");
     assert_eq!(error(12, 2), "form at byte 12: found 2, required 0 (built) or 1 (compacted)");
     assert_eq!(error(12, 1), "compacted_size at byte 24: found 121, required 136");
@@ -91,7 +91,9 @@ fn bottom_level_structures() {
     );
     assert_eq!(error(84, 2), "geometries[0].stored_count at byte 84: found 2, required 3");
     assert_eq!(error(88, 1), "geometries[0].micromap at byte 88: found 1, required at most 0");
-    assert_eq!(error(92, 1), "geometries[0].reserved at byte 92: found 1, required 0");
+    assert_eq!(error(92, 2), "geometries[0].motion at byte 92: found 2, required 0 (none) or 1 (vertices at time 1)");
+    assert_eq!(error(92, 1), "geometries[0].data_end at byte 96: found 240, required at most 160");
+    assert_eq!(error(124, 1), "geometries[1].motion at byte 124: found 1, required 0 (none), these being boxes");
     assert_eq!(error(96, 4), "geometries[0].data_offset at byte 96: found 4, required 0");
     assert_eq!(error(48, 9), "geometry_count at byte 48: found 9, required at most 7");
     assert_eq!(error(40, 5), "primitive_count at byte 40: found 5, required 4");
@@ -121,8 +123,29 @@ fn top_level_structures() {
     assert_eq!(error(200, 1), "instances[1].reference at byte 200: found 1, required 0");
     assert_eq!(error(279, 1), "padding at byte 279: found 1, required 0");
     assert_eq!(error(40, 4), "primitive_count at byte 40: found 4, required at most 3");
+    assert_eq!(error(32, 32), "primitive_count at byte 40: found 3, required at most 1");
     let compacted = compact(&bytes).unwrap();
     assert_eq!(references(&compacted).unwrap().collect::<Vec<_>>(), [0x100]);
     let error = super::tests::error(compacted, 40, 2);
     assert_eq!(error, "size at byte 16: found 264, required at most 200");
+}
+
+#[test]
+fn top_level_structures_with_motion() {
+    let moving = vk::MatrixMotionInstance { acceleration_structure_reference: 0x100, ..Default::default() };
+    let instances = vec![vk::MotionInstanceData::MatrixMotionInstance(moving), vk::MotionInstanceData::default()];
+    let bytes = MotionTlasContents { flags: 0, instances }.encode().unwrap();
+    assert_eq!(ObjectHeader::read(&bytes).unwrap().flags, vk::BuildAccelerationStructureFlags::MOTION.bits());
+    let error = |at, value| error(bytes.clone(), at, value);
+    let found = error(72, 3);
+    assert_eq!(
+        found,
+        "instances[0].type at byte 72: found 3, required 0 (static), 1 (matrix motion) or 2 (SRT motion)"
+    );
+    assert_eq!(error(76, 1), "instances[0].flags at byte 76: found 1, required 0");
+    assert_eq!(error(184, 1), "instances[0].reference at byte 184: found 1, required at most 0");
+    assert_eq!(error(188, 2), "instances[0].active at byte 188: found 2, required 0 (inactive) or 1 (active)");
+    assert_eq!(error(192, 1), "instances[0].reserved at byte 192: found 1, required 0");
+    assert_eq!(error(300, 1), "instances[1].reserved at byte 300: found 1, required 0");
+    assert_eq!(error(40, 3), "primitive_count at byte 40: found 3, required at most 2");
 }

@@ -151,3 +151,33 @@ proptest! {
         prop_assert_eq!(Some(MicroTriangle::at(u, v, level.coarser().unwrap())), microtriangle.parent());
     }
 }
+
+#[test]
+fn ties_are_broken_as_they_are_named() {
+    let level = SubdivisionLevel::new(2).unwrap();
+    for microtriangle in MicroTriangle::all(level) {
+        let [u, v] = microtriangle.centroid();
+        for tie_break in [TieBreak::Reference, TieBreak::LowestIndex] {
+            assert_eq!(tie_break.index(u, v, level), microtriangle.index());
+        }
+    }
+    // The lowest of all whose corners the grid's points are.
+    for u in 0..=4_u8 {
+        for v in 0..=4 - u {
+            let corner = Corner { u: u.into(), v: v.into() };
+            let lowest = MicroTriangle::all(level).find(|it| it.corners().contains(&corner)).unwrap();
+            let [u, v] = corner.barycentrics(level);
+            assert_eq!(TieBreak::LowestIndex.index(u, v, level), lowest.index(), "({u}, {v})");
+        }
+    }
+    // Between two points of f32 that lie beside the diagonal of the coarsest split.
+    let coarse = SubdivisionLevel::new(1).unwrap();
+    let (u, tiny) = (0.5, f32::MIN_POSITIVE);
+    assert_eq!(TieBreak::LowestIndex.index(u - 0.25, 0.25, coarse), 0);
+    assert_eq!(TieBreak::LowestIndex.index(u.next_down(), tiny, coarse), 0);
+    assert_eq!(TieBreak::LowestIndex.index(u.next_down() - 0.25, 0.25_f32.next_up().next_up(), coarse), 1);
+    // Outside of the triangle the reference decides.
+    for (u, v) in [(0.75, 0.75), (f32::NAN, 2.0), (-1.0, 0.3), (f32::INFINITY, 1.0)] {
+        assert_eq!(TieBreak::LowestIndex.index(u, v, level), index(u, v, level));
+    }
+}

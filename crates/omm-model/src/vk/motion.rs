@@ -154,6 +154,73 @@ pub enum MotionInstanceData {
     SrtMotionInstance(SrtMotionInstance),
 }
 
+impl MotionInstanceData {
+    /// Which member it is.
+    #[must_use]
+    pub const fn ty(&self) -> MotionInstanceType {
+        match self {
+            Self::StaticInstance(_) => MotionInstanceType::STATIC,
+            Self::MatrixMotionInstance(_) => MotionInstanceType::MATRIX_MOTION,
+            Self::SrtMotionInstance(_) => MotionInstanceType::SRT_MOTION,
+        }
+    }
+
+    /// The bottom-level structure, as in [`Instance::acceleration_structure_reference`].
+    #[must_use]
+    pub const fn acceleration_structure_reference(&self) -> u64 {
+        match self {
+            Self::StaticInstance(instance) => instance.acceleration_structure_reference,
+            Self::MatrixMotionInstance(instance) => instance.acceleration_structure_reference,
+            Self::SrtMotionInstance(instance) => instance.acceleration_structure_reference,
+        }
+    }
+
+    /// The same instance of another bottom-level structure.
+    #[must_use]
+    pub const fn with_reference(mut self, reference: u64) -> Self {
+        *match &mut self {
+            Self::StaticInstance(instance) => &mut instance.acceleration_structure_reference,
+            Self::MatrixMotionInstance(instance) => &mut instance.acceleration_structure_reference,
+            Self::SrtMotionInstance(instance) => &mut instance.acceleration_structure_reference,
+        } = reference;
+        self
+    }
+
+    /// All but the transformation and the motion, which are those of [`Instance::default`].
+    #[must_use]
+    pub const fn at_rest(&self) -> Instance {
+        let transform = TransformMatrix { matrix: [[0.0; 4]; 3] };
+        match *self {
+            Self::StaticInstance(instance) => Instance { transform, ..instance },
+            Self::MatrixMotionInstance(MatrixMotionInstance {
+                transform_t0: _,
+                transform_t1: _,
+                instance_custom_index,
+                mask,
+                instance_shader_binding_table_record_offset,
+                flags,
+                acceleration_structure_reference,
+            })
+            | Self::SrtMotionInstance(SrtMotionInstance {
+                transform_t0: _,
+                transform_t1: _,
+                instance_custom_index,
+                mask,
+                instance_shader_binding_table_record_offset,
+                flags,
+                acceleration_structure_reference,
+            }) => Instance {
+                transform,
+                instance_custom_index,
+                mask,
+                instance_shader_binding_table_record_offset,
+                flags,
+                acceleration_structure_reference,
+            },
+        }
+    }
+}
+
 impl Default for MotionInstanceData {
     fn default() -> Self {
         Self::StaticInstance(Instance::default())

@@ -38,6 +38,7 @@ pub(crate) fn value(node: &Node, like: &Tree, context: &Context<'_>) -> Result<T
         Tree::Struct(..) => fields(node, like.clone(), context),
         Tree::Variant("DeviceOrHostAddress", variant, _) => address(node, variant, context),
         Tree::Variant("GeometryData", ..) => geometry(node, context),
+        Tree::Variant("TieBreak", ..) => tie_break(node),
         Tree::Variant(..) => Err(node.mistake(format!("{} has no place here", node.describe()))),
     }
 }
@@ -160,6 +161,14 @@ fn newtype(node: &Node, name: &'static str, context: &Context<'_>) -> Result<Tre
         _ => return Err(node.mistake(format!("{} is no Vk{name}", node.describe()))),
     };
     Ok(wrap(name, number))
+}
+
+/// How a device profile breaks ties between microtriangles.
+fn tie_break(node: &Node) -> Result<Tree, Mistake> {
+    let names = ["reference", "lowest_index"];
+    let found = names.into_iter().find(|name| node.name() == Some(*name));
+    let mistake = || node.mistake(format!("{} breaks no ties", node.describe())).nearest(&node.describe(), names);
+    found.map(|name| Tree::Variant("TieBreak", name, None)).ok_or_else(mistake)
 }
 
 fn wrap(name: &'static str, number: i128) -> Tree {

@@ -109,7 +109,7 @@ impl Scene<'_> {
             }
         };
         let found: Vec<String> =
-            object.instances().map(|instance| reference(instance.acceleration_structure_reference)).collect();
+            object.instances().map(|instance| reference(instance.acceleration_structure_reference())).collect();
         Ok(equal(&wanted, &found))
     }
 

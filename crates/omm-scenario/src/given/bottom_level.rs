@@ -10,6 +10,7 @@ use crate::world::{Cost, Handle, Preparation, Recipe, World};
 /// What a geometry says about itself; a structure of one geometry says it in its own parentheses.
 const GEOMETRY: &[&str] = &[
     "triangles",
+    "triangles_end",
     "micromap",
     "indices",
     "base_triangle",
@@ -21,6 +22,7 @@ const GEOMETRY: &[&str] = &[
 ];
 const STRUCTURE: &[&str] = &[
     "triangles",
+    "triangles_end",
     "micromap",
     "indices",
     "base_triangle",
@@ -105,8 +107,7 @@ impl World {
         }
         let triangles = self.triangles(arguments.need("triangles")?)?;
         let count = triangles.len() as u32;
-        let bytes: Vec<u8> = triangles.as_flattened().as_flattened().iter().flat_map(|it| it.to_le_bytes()).collect();
-        let vertices = self.upload(&format!("{prefix}.vertices"), &bytes, node)?;
+        let vertices = self.upload(&format!("{prefix}.vertices"), &corners(&triangles), node)?;
         let index_type = arguments.get("vertex_indices").map_or(Ok(vk::IndexType::UINT32), index_type)?;
         let size = index_type.size().unwrap_or(0) as usize;
         let bytes: Vec<u8> = (0..3 * count).flat_map(|index| index.to_le_bytes().into_iter().take(size)).collect();
@@ -120,9 +121,18 @@ impl World {
             transform_data = self.upload(&format!("{prefix}.transform"), &bytes, node)?;
         }
         let mut description = super::counted(triangles.len(), "triangle", "triangles");
-        let next = self.attached(prefix, arguments, count, node)?;
+        let mut next = self.attached(prefix, arguments, count, node)?;
         if let (Some(micromap), false) = (arguments.get("micromap"), next.is_empty()) {
             description += &format!(" with {}", micromap.describe().trim_matches('"'));
+        }
+        if let Some(ends) = arguments.get("triangles_end") {
+            let triangles = self.triangles(ends)?;
+            if triangles.len() != count as usize {
+                return Err(ends.mistake(format!("{} triangles end where {count} begin", triangles.len())));
+            }
+            let vertex_data = self.upload(&format!("{prefix}.vertices_end"), &corners(&triangles), node)?.into();
+            next.push(vk::GeometryMotionTrianglesData { vertex_data, ..Default::default() }.into());
+            description += " that move";
         }
         let triangles = vk::GeometryTrianglesData {
             next,
@@ -159,7 +169,7 @@ impl World {
         self.spend(Cost::Primitives, nodes.len() as u64, node)?;
         let triangle = |node: &Node| match node.name() {
             Some("inactive") => Ok([[f32::NAN; 3]; 3]),
-            _ => array(node, |corner| array(corner, |number| Ok(number.float()? as f32))),
+            _ => array(node, numbers),
         };
         nodes.iter().map(triangle).collect()
     }
@@ -180,7 +190,7 @@ impl World {
         self.spend(Cost::Primitives, nodes.len() as u64, node)?;
         let corners = |node: &Node| match node.name() {
             Some("inactive") => Ok([[f32::NAN; 3]; 2]),
-            _ => array(node, |corner| array(corner, |number| Ok(number.float()? as f32))),
+            _ => array(node, numbers),
         };
         nodes.iter().map(|node| corners(node).map(positions)).collect()
     }
@@ -289,6 +299,16 @@ fn index_type(node: &Node) -> Result<vk::IndexType, Mistake> {
     }
 }
 
+/// The bytes of vertices.
+fn corners(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+    triangles.as_flattened().as_flattened().iter().flat_map(|number| number.to_le_bytes()).collect()
+}
+
+/// So many numbers.
+pub(super) fn numbers<const N: usize>(node: &Node) -> Result<[f32; N], Mistake> {
+    array(node, |number| Ok(number.float()? as f32))
+}
+
 /// Exactly `N` of something in a list or in parentheses.
 fn array<T: Copy + Default, const N: usize>(
     node: &Node,
@@ -310,5 +330,5 @@ fn array<T: Copy + Default, const N: usize>(
 
 /// Three rows of four numbers.
 pub(super) fn matrix(node: &Node) -> Result<vk::TransformMatrix, Mistake> {
-    Ok(vk::TransformMatrix { matrix: array(node, |row| array(row, |number| Ok(number.float()? as f32)))? })
+    Ok(vk::TransformMatrix { matrix: array(node, numbers)? })
 }

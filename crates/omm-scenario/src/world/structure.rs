@@ -258,6 +258,25 @@ impl Handle {
 }
 
 impl Structure {
+    /// How it is created if what is built into it moves: with a flag, and for a top level with the number of instances.
+    fn motion(&self) -> (vk::AccelerationStructureCreateFlags, vk::Chain) {
+        let (flags, mut next) = (vk::AccelerationStructureCreateFlags::MOTION, vk::Chain::new());
+        let Some(Recipe::AccelerationStructure { info, ranges }) = &self.recipe else { return Default::default() };
+        let moves = |geometry: &vk::Geometry| match &geometry.geometry {
+            vk::GeometryData::Triangles(triangles) => triangles.motion_data().is_some(),
+            _ => false,
+        };
+        if info.flags.contains(vk::BuildAccelerationStructureFlags::MOTION)
+            && info.ty == vk::AccelerationStructureType::TOP_LEVEL
+        {
+            let max_instances = ranges.iter().flatten().map(|range| range.primitive_count).sum();
+            next.push(vk::AccelerationStructureMotionInfo { max_instances, ..Default::default() }.into());
+        } else if !info.geometries_iter().any(moves) {
+            return Default::default();
+        }
+        (flags, next)
+    }
+
     /// The command that creates it: a KHR micromap by address, all else by buffer.
     pub(crate) fn create_call(&self) -> Call {
         let Range { address, size, host: _ } = self.range;
@@ -271,7 +290,10 @@ impl Structure {
                 Call::CreateAccelerationStructure2 { device: DEVICE, create_info, acceleration_structure }
             }
             Handle::AccelerationStructure(acceleration_structure) => {
+                let (create_flags, next) = self.motion();
                 let create_info = vk::AccelerationStructureCreateInfo {
+                    next,
+                    create_flags,
                     buffer: self.buffer,
                     size,
                     ty: self.ty,

@@ -1,7 +1,5 @@
 //! Trees against lists of boxes.
 
-use std::ops::ControlFlow;
-
 use proptest::prelude::*;
 
 use super::build::Bounds;
@@ -15,11 +13,12 @@ fn boxed(a: [f64; 3], b: [f64; 3]) -> Bounds {
 fn visited(bvh: &Bvh, origin: [f64; 3], direction: [f64; 3], range: Range<f32>) -> Vec<u32> {
     let ray = BoxRay::new(bvh, origin, direction, range.start);
     let mut found = Vec::new();
-    let walk = bvh.walk(&ray, &mut Stack::new(), range.end, |slots, limit| {
+    let mut walk = Walk::new();
+    walk.begin(bvh);
+    while let Some(slots) = walk.next(bvh, &ray, range.end) {
         found.extend_from_slice(&bvh.items()[slots]);
-        ControlFlow::Continue(limit)
-    });
-    assert_eq!(walk, ControlFlow::Continue(()));
+    }
+    assert_eq!(walk.next(bvh, &ray, range.end), None);
     found.sort_unstable();
     found
 }
@@ -59,18 +58,17 @@ fn a_row_is_pruned() {
 }
 
 #[test]
-fn a_visit_can_lower_the_limit_or_end_the_walk() {
+fn a_lower_limit_prunes_what_is_left() {
     let boxes: Vec<_> = (0..64).map(|i| boxed([f64::from(i), 0.0, 0.0], [f64::from(i) + 0.5, 1.0, 1.0])).collect();
     let bvh = Bvh::build(&boxes, 2).unwrap();
     let ray = BoxRay::new(&bvh, [-1.0, 0.5, 0.5], [1.0, 0.0, 0.0], 0.0);
-    let mut visits = 0;
-    let walk = bvh.walk(&ray, &mut Stack::new(), f32::INFINITY, |_, _| {
-        visits += 1;
-        ControlFlow::Continue(0.5)
-    });
-    assert_eq!((walk, visits), (ControlFlow::Continue(()), 1));
-    let walk = bvh.walk(&ray, &mut Stack::new(), f32::INFINITY, |_, _| ControlFlow::Break(()));
-    assert_eq!(walk, ControlFlow::Break(()));
+    let mut walk = Walk::new();
+    assert_eq!(walk.next(&bvh, &ray, f32::INFINITY), None);
+    walk.begin(&bvh);
+    assert!(walk.next(&bvh, &ray, f32::INFINITY).is_some());
+    assert_eq!(walk.next(&bvh, &ray, 0.5), None);
+    walk.begin(&bvh);
+    assert!(walk.next(&bvh, &ray, 1.5).is_some());
 }
 
 #[test]

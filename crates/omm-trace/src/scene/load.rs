@@ -2,15 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use omm_layout::object::{BlasObject, GeometryView, MicromapObject, ObjectHeader, StoredTriangle, TlasObject};
+use omm_layout::object::{
+    BlasObject, GeometryView, MicromapObject, ObjectHeader, StoredTriangle, TlasObject, TriangleVertices,
+};
 use omm_model::memory::MemoryView;
 use omm_model::special_index::TriangleMap;
 use omm_model::vk::{self, DeviceAddress, GeometryFlags};
 
-use super::{Aabb, Blas, Geometry, INSTANCE_MARGIN, Instance, MAX_CONDITION, Scene, Triangle};
+use super::{Aabb, Blas, Geometry, Instance, Scene, Triangle};
 use crate::bvh::{Bounds, Bvh};
 use crate::error::{LoadError, LoadErrorKind, ObjectPath};
 use crate::opacity::{Micromap, TriangleOpacity};
+use crate::placement::Placement;
 use crate::transform::WorldToObject;
 
 /// Triangles in a leaf of a hierarchy, at most. Boxes and instances are dearer to visit: they are alone.
@@ -43,37 +46,49 @@ pub(super) fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Scene, 
 
     let (mut boxes, mut boxed, mut unboxed) = (Vec::new(), Vec::new(), Vec::new());
     for (instance_id, instance) in (0..).zip(object.instances()) {
-        let address = DeviceAddress(instance.acceleration_structure_reference);
+        let address = DeviceAddress(instance.acceleration_structure_reference());
         if address.is_null() {
             continue;
         }
         let blas = loader.blas(ObjectPath { blas: Some((instance_id, address)), ..path }, address)?;
-        let Some(to_object) = WorldToObject::new(&instance.transform) else { continue };
+        let placement = Placement::from(&instance);
+        let to_object = if placement.moves() { None } else { WorldToObject::new(&placement.at(0.0)) };
+        if to_object.is_none() && !placement.moves() {
+            continue;
+        }
         let Some(bounds) = loader.scene.blases.get(blas as usize).and_then(|blas| blas.bounds) else { continue };
+        let rest = instance.at_rest();
         let reachable = Instance {
             to_object,
             blas,
             instance_id,
-            custom_index: instance.instance_custom_index,
-            sbt_record_offset: instance.instance_shader_binding_table_record_offset,
-            mask: instance.mask,
-            flags: instance.flags,
+            custom_index: rest.instance_custom_index,
+            sbt_record_offset: rest.instance_shader_binding_table_record_offset,
+            mask: rest.mask,
+            flags: rest.flags,
         };
-        match world_bounds(&instance.transform, &bounds).filter(|_| to_object.condition <= MAX_CONDITION) {
+        match placement.bounds(&bounds) {
             Some(bounds) => {
                 boxes.push(bounds);
-                boxed.push(reachable);
+                boxed.push((reachable, placement));
             }
-            None => unboxed.push(reachable),
+            None => unboxed.push((reachable, placement)),
         }
     }
 
     let mut scene = loader.scene;
     scene.bvh = Bvh::build(&boxes, 1).ok_or_else(|| at(LoadErrorKind::TooMany { found: boxes.len() as u64 }))?;
-    scene.instances = in_order_of(&scene.bvh, &boxed);
-    scene.boxed = scene.instances.len();
     scene.bounds = boxes.into_iter().reduce(Bounds::union).filter(|_| unboxed.is_empty());
-    scene.instances.append(&mut unboxed);
+    let ordered = in_order_of(&scene.bvh, &boxed);
+    scene.boxed = ordered.len();
+    scene.slots = vec![u32::MAX; object.instance_count() as usize];
+    for (slot, (instance, placement)) in (0..).zip(ordered.into_iter().chain(unboxed)) {
+        if let Some(known) = scene.slots.get_mut(instance.instance_id as usize) {
+            *known = slot;
+        }
+        scene.instances.push(instance);
+        scene.placements.push(placement);
+    }
     Ok(scene)
 }
 
@@ -98,7 +113,7 @@ impl<'a> Loader<'a> {
         }
         let at = |kind| LoadError { at: path, kind };
         let object = BlasObject::read(self.read(address).map_err(at)?).map_err(|error| at(error.into()))?;
-        let (mut blas, mut triangles, mut aabbs) = (Blas::default(), Vec::new(), Vec::new());
+        let (mut blas, mut triangles, mut aabbs, mut moves) = (Blas::default(), Vec::new(), Vec::new(), false);
         for (index, view) in (0..).zip(object.geometries()) {
             let micromap = match view.micromap().map(DeviceAddress) {
                 None | Some(DeviceAddress::NULL) => None,
@@ -109,9 +124,10 @@ impl<'a> Loader<'a> {
             for triangle in view.triangles() {
                 triangles.extend(read_triangle(index, &triangle, micromap).map_err(at)?);
             }
+            moves |= view.has_motion();
             aabbs.extend(read_aabbs(index, &view));
         }
-        blas.fill(triangles, aabbs).map_err(at)?;
+        blas.fill(&triangles, &aabbs, moves).map_err(at)?;
         Ok(insert(&mut self.scene.blases, &mut self.blases, address, blas))
     }
 
@@ -135,13 +151,13 @@ fn insert<T>(objects: &mut Vec<T>, known: &mut BTreeMap<u64, u32>, address: Devi
     index
 }
 
-/// The triangle, if rays can reach it.
+/// The triangle and its vertices at time 1, if rays can reach it.
 fn read_triangle(
     geometry: u32,
     triangle: &StoredTriangle,
     micromap: Option<&Micromap>,
-) -> Result<Option<Triangle>, LoadErrorKind> {
-    let StoredTriangle { primitive_index: primitive, vertices, map } = *triangle;
+) -> Result<Option<(Triangle, TriangleVertices)>, LoadErrorKind> {
+    let StoredTriangle { primitive_index: primitive, vertices, vertices_t1, map } = *triangle;
     let opacity = match map {
         None => TriangleOpacity::Geometry,
         Some(TriangleMap::SpecialIndex(index)) => TriangleOpacity::Whole(index.state()),
@@ -153,8 +169,9 @@ fn read_triangle(
             TriangleOpacity::Micromap(found)
         }
     };
-    let finite = vertices.as_flattened().iter().all(|x| x.is_finite());
-    Ok(finite.then_some(Triangle { vertices, geometry, primitive, opacity }))
+    let end = vertices_t1.unwrap_or(vertices);
+    let finite = vertices.iter().chain(&end).flatten().all(|x| x.is_finite());
+    Ok(finite.then_some((Triangle { vertices, geometry, primitive, opacity }, end)))
 }
 
 /// The boxes of a geometry that rays can reach. Infinite ends are moved to the largest number.
@@ -170,21 +187,33 @@ fn read_aabbs(geometry: u32, view: &GeometryView<'_>) -> impl Iterator<Item = Aa
 }
 
 impl Blas {
-    /// Takes the primitives in and builds hierarchies over them.
-    fn fill(&mut self, triangles: Vec<Triangle>, aabbs: Vec<Aabb>) -> Result<(), LoadErrorKind> {
-        let corners = |corners: &[[f32; 3]]| Bounds::around(corners.iter().map(|corner| corner.map(f64::from)));
-        // All of them are finite, so none is left out.
-        let triangle_boxes: Vec<_> = triangles.iter().filter_map(|triangle| corners(&triangle.vertices)).collect();
-        let aabb_boxes: Vec<_> = aabbs.iter().filter_map(|aabb| corners(&[aabb.min, aabb.max])).collect();
+    /// Takes the primitives in and builds hierarchies over them. Each triangle comes with its vertices at time 1, which
+    /// are kept if it `moves`.
+    fn fill(
+        &mut self,
+        triangles: &[(Triangle, TriangleVertices)],
+        aabbs: &[Aabb],
+        moves: bool,
+    ) -> Result<(), LoadErrorKind> {
+        let around =
+            |corners: &mut dyn Iterator<Item = &[f32; 3]>| Bounds::around(corners.map(|corner| corner.map(f64::from)));
+        // All of them are finite, so none is left out. What moves stays between its ends.
+        let triangle_boxes: Vec<_> =
+            triangles.iter().filter_map(|(start, end)| around(&mut start.vertices.iter().chain(end))).collect();
+        let aabb_box = |aabb: &Aabb| around(&mut [aabb.min, aabb.max].iter());
+        let aabb_boxes: Vec<_> = aabbs.iter().filter_map(aabb_box).collect();
         let build = |boxes: &[Bounds], leaf| {
             Bvh::build(boxes, leaf).ok_or(LoadErrorKind::TooMany { found: boxes.len() as u64 })
         };
         self.triangle_bvh = build(&triangle_boxes, TRIANGLES_IN_LEAF)?;
-        self.triangles = in_order_of(&self.triangle_bvh, &triangles);
+        for (triangle, end) in in_order_of(&self.triangle_bvh, triangles) {
+            self.triangles.push(triangle);
+            self.ends.extend(moves.then_some(end));
+        }
         self.aabb_bvh = build(&aabb_boxes, 1)?;
-        self.aabbs = in_order_of(&self.aabb_bvh, &aabbs);
+        self.aabbs = in_order_of(&self.aabb_bvh, aabbs);
         for aabb in &mut self.aabbs {
-            if let Some(bounds) = corners(&[aabb.min, aabb.max]) {
+            if let Some(bounds) = aabb_box(aabb) {
                 aabb.planes = self.aabb_bvh.planes_of(&bounds);
             }
         }
@@ -196,23 +225,4 @@ impl Blas {
 /// Items in the order of the slots of the tree that was built over them.
 fn in_order_of<T: Copy>(bvh: &Bvh, items: &[T]) -> Vec<T> {
     bvh.items().iter().filter_map(|&item| items.get(item as usize)).copied().collect()
-}
-
-/// A box in the scene around a box in an instance, with room for rounding on the way there and back; `None` if it
-/// is not finite.
-fn world_bounds(transform: &vk::TransformMatrix, bounds: &Bounds) -> Option<Bounds> {
-    let (mut low, mut high, mut largest) = ([0.0; 3], [0.0; 3], 0.0_f64);
-    for (axis, row) in transform.matrix.iter().enumerate() {
-        let [a, b, c, offset] = row.map(f64::from);
-        let (mut least, mut most, mut sum) = (offset, offset, 0.0);
-        for (factor, (low, high)) in [a, b, c].into_iter().zip(bounds.low.into_iter().zip(bounds.high)) {
-            least += (factor * low).min(factor * high);
-            most += (factor * low).max(factor * high);
-            sum += factor.abs();
-        }
-        (low[axis], high[axis]) = (least, most);
-        largest = largest.max(sum * bounds.largest() + offset.abs());
-    }
-    let margin = largest * INSTANCE_MARGIN;
-    Bounds::around([low.map(|x| x - margin), high.map(|x| x + margin)])
 }

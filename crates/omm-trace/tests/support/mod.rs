@@ -5,15 +5,18 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use omm_layout::object::{
-    BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, MicromapContents, MicromapTriangleData, TlasContents,
+    BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, MicromapContents, MicromapTriangleData,
+    MotionTlasContents, TlasContents,
 };
 use omm_layout::packed;
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::memory::{MemoryError, MemoryView};
 use omm_model::opacity::OpacityState;
-use omm_model::special_index::TriangleMap;
-use omm_model::vk::{AabbPositions, DeviceAddress, GeometryFlags, GeometryInstanceFlags, Instance, TransformMatrix};
+use omm_model::special_index::{OpacityMicromapSpecialIndex, TriangleMap};
+use omm_model::vk::{
+    AabbPositions, DeviceAddress, GeometryFlags, GeometryInstanceFlags, Instance, MotionInstanceData, TransformMatrix,
+};
 use omm_trace::{Candidate, Counters, Hit, Ray, RayFlags, Scene, Shaders, TraceOptions};
 
 pub(crate) type Vertices = [[f32; 3]; 3];
@@ -59,6 +62,12 @@ impl Memory {
 
     pub(crate) fn tlas(&mut self, instances: Vec<Instance>) -> DeviceAddress {
         DeviceAddress(self.add(TlasContents { flags: 0, instances }.encode().unwrap()))
+    }
+
+    /// The scene of these instances, which may move.
+    pub(crate) fn motion_scene(mut self, instances: Vec<MotionInstanceData>) -> Scene {
+        let tlas = self.add(MotionTlasContents { flags: 0, instances }.encode().unwrap());
+        Scene::load(&self, DeviceAddress(tlas)).unwrap()
     }
 
     /// The scene of these instances.
@@ -117,6 +126,19 @@ pub(crate) fn scene_of(geometry: BlasGeometry) -> Scene {
 /// The triangle (0, 0), (1, 0), (0, 1) at height z: barycentrics are x and y, and its front is up.
 pub(crate) fn unit_triangle(z: f32) -> Vertices {
     [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]]
+}
+
+/// The unit triangle at a height.
+pub(crate) fn plain(z: f32) -> BlasGeometry {
+    triangles(GeometryFlags::empty(), [unit_triangle(z)])
+}
+
+/// Triangles at heights 0, -1, … with these states for the whole of each.
+pub(crate) fn stack(states: &[OpacityState]) -> Scene {
+    let special = |state| TriangleMap::SpecialIndex(OpacityMicromapSpecialIndex::of_state(state));
+    let list: Vec<_> =
+        (0_u8..).zip(states).map(|(at, &state)| (unit_triangle(-f32::from(at)), special(state))).collect();
+    scene_of(mapped(GeometryFlags::empty(), 0, &list))
 }
 
 /// The ray down to (x, y) from a height of 1, which takes t = 1 to a height of 0.

@@ -196,8 +196,8 @@ fn findings_say_what_is_wrong_with_data() {
     assert_eq!(
         words(|world| world.put(BLOB, &serialized(&DeviceProfile::minimum()))),
         [
-            "driver 6f6d6d2073696d2e206465766963652e and compatibility 6d696e696d756d2c2020207630303031",
-            "driver 6f6d6d2073696d2e206465766963652e and compatibility 7265666572656e63652c207630303031",
+            "driver 6f6d6d2073696d2e206465766963652e and compatibility 6d696e696d756d2c2020207630303032",
+            "driver 6f6d6d2073696d2e206465766963652e and compatibility 7265666572656e63652c207630303032",
         ]
     );
 }

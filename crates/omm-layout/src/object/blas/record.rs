@@ -3,7 +3,7 @@
 use omm_model::vk;
 
 use super::GeometryKind;
-use crate::bytes::{self, u32_at, u64_at};
+use crate::bytes::{u32_at, u64_at};
 use crate::error::{ReadError, ReadErrorKind};
 
 /// Stands where a primitive's index would: the primitive is inactive.
@@ -20,6 +20,10 @@ pub(super) enum Layout {
     Triangles,
     /// u32 index, nine f32, i32 map.
     MappedTriangles,
+    /// u32 index, nine f32, nine f32 at time 1.
+    MovingTriangles,
+    /// u32 index, nine f32, i32 map, nine f32 at time 1.
+    MovingMappedTriangles,
     /// u32 index, six f32.
     Aabbs,
 }
@@ -30,14 +34,40 @@ impl Layout {
         match self {
             Self::Triangles => 40,
             Self::MappedTriangles => 44,
+            Self::MovingTriangles => 76,
+            Self::MovingMappedTriangles => 80,
             Self::Aabbs => 28,
         }
     }
 
     pub(super) const fn kind(self) -> GeometryKind {
         match self {
-            Self::Triangles | Self::MappedTriangles => GeometryKind::Triangles,
             Self::Aabbs => GeometryKind::Aabbs,
+            _ => GeometryKind::Triangles,
+        }
+    }
+
+    /// That of triangles.
+    pub(super) const fn of_triangles(micromap: bool, motion: bool) -> Self {
+        match (micromap, motion) {
+            (false, false) => Self::Triangles,
+            (true, false) => Self::MappedTriangles,
+            (false, true) => Self::MovingTriangles,
+            (true, true) => Self::MovingMappedTriangles,
+        }
+    }
+
+    /// Whether triangles have a map.
+    pub(super) const fn is_mapped(self) -> bool {
+        matches!(self, Self::MappedTriangles | Self::MovingMappedTriangles)
+    }
+
+    /// Bytes from the start of a record to the vertices at time 1, if there are any.
+    pub(super) const fn end_at(self) -> Option<usize> {
+        match self {
+            Self::MovingTriangles => Some(40),
+            Self::MovingMappedTriangles => Some(44),
+            _ => None,
         }
     }
 }
@@ -96,9 +126,17 @@ impl GeometryRecord {
             NULL_MICROMAP => Binding::Null,
             entry => Binding::Reference(entry),
         };
+        let motion = match u32_at::<20, { Self::SIZE }>(bytes) {
+            0 => false,
+            1 => true,
+            found => return Err(unknown("motion", 20, found, "0 (none) or 1 (vertices at time 1)")),
+        };
         let layout = match (u32_at::<0, { Self::SIZE }>(bytes), binding) {
+            (0, Binding::None) if motion => Layout::MovingTriangles,
+            (0, _) if motion => Layout::MovingMappedTriangles,
             (0, Binding::None) => Layout::Triangles,
             (0, _) => Layout::MappedTriangles,
+            (1, _) if motion => return Err(unknown("motion", 20, 1, "0 (none), these being boxes")),
             (1, Binding::None) => Layout::Aabbs,
             (1, Binding::Null) => {
                 return Err(unknown(
@@ -118,7 +156,6 @@ impl GeometryRecord {
             }
             (found, _) => return Err(unknown("type", 0, found, "0 (triangles) or 1 (boxes)")),
         };
-        bytes::equal("reserved", at + 20, u32_at::<20, { Self::SIZE }>(bytes).into(), 0)?;
         Ok(Self {
             layout,
             flags: vk::GeometryFlags::from_bits_retain(u32_at::<4, { Self::SIZE }>(bytes)),
@@ -146,6 +183,7 @@ impl GeometryRecord {
         bytes[8..12].copy_from_slice(&count.to_le_bytes());
         bytes[12..16].copy_from_slice(&stored.to_le_bytes());
         bytes[16..20].copy_from_slice(&binding.to_le_bytes());
+        bytes[20..24].copy_from_slice(&u32::from(layout.end_at().is_some()).to_le_bytes());
         bytes[24..32].copy_from_slice(&offset.to_le_bytes());
         bytes
     }

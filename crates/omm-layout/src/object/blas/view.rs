@@ -33,8 +33,10 @@ pub struct GeometryView<'a> {
 pub struct StoredTriangle {
     /// Its index in the geometry, inactive triangles counted.
     pub primitive_index: u32,
-    /// The vertices.
+    /// The vertices; those at time 0 if the geometry has motion.
     pub vertices: TriangleVertices,
+    /// The vertices at time 1, if the geometry has motion.
+    pub vertices_t1: Option<TriangleVertices>,
     /// The special index, or the triangle of the geometry's micromap; `None` if the geometry has no micromap, null or not.
     pub map: Option<TriangleMap>,
 }
@@ -113,6 +115,8 @@ impl<'a> BlasObject<'a> {
         match record.layout {
             Layout::Triangles => check_primitives(view.chunks::<40>(), &view, data_offset)?,
             Layout::MappedTriangles => check_primitives(view.chunks::<44>(), &view, data_offset)?,
+            Layout::MovingTriangles => check_primitives(view.chunks::<76>(), &view, data_offset)?,
+            Layout::MovingMappedTriangles => check_primitives(view.chunks::<80>(), &view, data_offset)?,
             Layout::Aabbs => check_primitives(view.chunks::<28>(), &view, data_offset)?,
         }
         Ok(record)
@@ -218,7 +222,7 @@ fn check_primitives<const N: usize>(records: &[[u8; N]], view: &GeometryView<'_>
                 let limit = u64::from(view.record.count).saturating_sub(1);
                 return Err(ReadError::new("index", at, ReadErrorKind::Above { found, limit }));
             }
-            if view.record.layout == Layout::MappedTriangles {
+            if view.record.layout.is_mapped() {
                 let found = map_value(record);
                 if triangle_map(found).is_none() {
                     let kind = ReadErrorKind::Unknown { found: found.into(), required: "-4 to -1 or an index" };
@@ -274,6 +278,12 @@ impl<'a> GeometryView<'a> {
         self.micromap
     }
 
+    /// Whether the triangles have vertices at time 1 too.
+    #[must_use]
+    pub const fn has_motion(&self) -> bool {
+        self.record.layout.end_at().is_some()
+    }
+
     /// The records of active primitives.
     fn active(&self) -> impl Iterator<Item = &'a [u8]> + Clone + 'a {
         self.data.chunks_exact(self.record.layout.stride() as usize).filter(|record| index(record) != INACTIVE)
@@ -304,10 +314,15 @@ impl<'a> GeometryView<'a> {
     }
 
     fn stored_triangle(&self, record: &[u8]) -> StoredTriangle {
-        let [a, b, c]: [[f32; 3]; 3] = [4, 16, 28].map(|at| f32s(record.get(at..).unwrap_or_default()));
-        let mapped = self.record.layout == Layout::MappedTriangles;
-        let map = mapped.then(|| triangle_map(map_value(record))).flatten();
-        StoredTriangle { primitive_index: index(record), vertices: [a, b, c], map }
+        let vertices = |start: usize| [0, 12, 24].map(|at| f32s(record.get(start + at..).unwrap_or_default()));
+        let layout = self.record.layout;
+        let map = layout.is_mapped().then(|| triangle_map(map_value(record))).flatten();
+        StoredTriangle {
+            primitive_index: index(record),
+            vertices: vertices(4),
+            vertices_t1: layout.end_at().map(vertices),
+            map,
+        }
     }
 
     /// The active triangles in order; nothing if the geometry consists of boxes.
