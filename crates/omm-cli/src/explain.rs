@@ -71,15 +71,19 @@ impl Explanation {
     }
 }
 
-/// Runs `omm explain`.
-pub(crate) fn run(args: &ExplainArgs, format: Format) -> Result<Outcome, CliError> {
-    let wanted = args.rule.trim();
+/// The rules whose identifier is, or ends in, what was asked for: a number may stand in the identifiers of several commands.
+pub(crate) fn find(wanted: &str) -> Result<Vec<&'static Rule>, CliError> {
     let is_wanted = |rule: &&'static Rule| rule.vuid() == wanted || rule.vuid().rsplit('-').next() == Some(wanted);
-    // A number may stand in the identifiers of several commands.
-    let found: Vec<_> = RULES.iter().filter(is_wanted).map(Explanation::new).collect();
+    let found: Vec<_> = RULES.iter().filter(is_wanted).collect();
     if found.is_empty() {
         return Err(CliError::UnknownRule { wanted: wanted.to_owned() });
     }
+    Ok(found)
+}
+
+/// Runs `omm explain`.
+pub(crate) fn run(args: &ExplainArgs, format: Format) -> Result<Outcome, CliError> {
+    let found: Vec<_> = find(args.rule.trim())?.into_iter().map(Explanation::new).collect();
     match format {
         Format::Json => output::print_json(&found)?,
         Format::Text => output::print(|out| {

@@ -3,9 +3,9 @@
 use omm_model::triangle::MicromapTriangle;
 use omm_model::usage::MicromapUsage;
 
-use super::codec;
 use super::section::{SectionKind, checksum};
 use super::{MAGIC, VERSION};
+use crate::codec;
 
 /// What a bundle holds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
