@@ -21,6 +21,7 @@ use omm_model::profile::Uuid;
 use omm_serialize::bundle::{Bundle, Checksums};
 use omm_serialize::{Blob, Block, ByteOrder, Header, References, StreamReader, serialize_object};
 
+pub mod calls;
 mod seeds;
 
 pub use seeds::seeds;
