@@ -16,6 +16,7 @@
 mod bake;
 mod blob;
 mod bundle;
+pub mod calls;
 mod made;
 mod packed;
 mod scenario;
@@ -30,6 +31,11 @@ pub use packed::packed_data;
 pub use scenario::scenario_text;
 pub use trace::{trace_decode, trace_structured};
 
+/// If the validator says nothing about a spoiled program, the device does not get to undefined behaviour.
+pub fn calls(bytes: &[u8]) {
+    calls::calls(bytes);
+}
+
 /// A fuzz target: what to do with any bytes, and where to begin.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
@@ -42,7 +48,7 @@ pub struct Target {
 }
 
 /// Every target.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 11] = [
     Target { name: "blob_identity", body: blob_identity, seeds: seeds::blobs },
     Target { name: "blob_incremental", body: blob_incremental, seeds: seeds::blobs_in_pieces },
     Target { name: "blob_structured", body: blob_structured, seeds: seeds::blobs },
@@ -51,6 +57,7 @@ pub const TARGETS: [Target; 10] = [
     Target { name: "trace_decode", body: trace_decode, seeds: seeds::traces },
     Target { name: "trace_structured", body: trace_structured, seeds: seeds::numbers },
     Target { name: "scenario_text", body: scenario_text, seeds: seeds::scenarios },
+    Target { name: "calls", body: calls, seeds: seeds::numbers },
     Target { name: "packed_data", body: packed_data, seeds: seeds::numbers },
     Target { name: "bake_exact", body: bake_exact, seeds: seeds::numbers },
 ];

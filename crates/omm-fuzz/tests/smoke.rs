@@ -62,6 +62,7 @@ smoke! {
     trace_decode
     trace_structured
     scenario_text
+    calls
     packed_data
     bake_exact
 }
