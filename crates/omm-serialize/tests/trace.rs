@@ -141,7 +141,10 @@ fn version_1_is_what_it_was() {
     // Every command is there, so that no structure changes unseen.
     let text = trace.to_text().unwrap();
     for command in variants::<Call>() {
-        assert!(text.contains(&format!("Call({command}(")), "{command} is not in the fixture");
+        assert!(
+            text.contains(&format!("\n      Call({command}(")),
+            "{command} is not in the fixture, on a line of its own"
+        );
     }
 }
 

@@ -318,7 +318,7 @@ mod tests {
         let mut bytes = Vec::new();
         codec::push_value(&mut bytes, &chain);
         let error = value::<vk::Chain>(&bytes).unwrap_err();
-        assert!(error.field.ends_with("[0].next.depth"), "{error}");
+        assert!(error.field.ends_with("[0].depth"), "{error}");
         assert_eq!(error.kind, ReadErrorKind::Above { found: 65, limit: 64 });
     }
 }

@@ -9,7 +9,7 @@ use super::{Trace, VERSION};
 /// Levels of values inside each other in a text; each of the binary form takes two at most.
 const RECURSION_LIMIT: usize = 256;
 /// Up to this level values stand on lines of their own, so that every event has one.
-const LINES_TO_LEVEL: usize = 2;
+const LINES_TO_LEVEL: usize = 3;
 
 /// Why a text is no trace.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
