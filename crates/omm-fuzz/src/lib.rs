@@ -39,6 +39,14 @@ pub const TARGETS: [(&str, Body); 6] = [
     ("packed_data", packed_data),
 ];
 
+/// The targets that run sequences of calls: they take more time and other bytes, which [`seeds`] are not.
+pub const CALL_TARGETS: [(&str, Body); 2] = [("two_readings", two_readings), ("replay", calls::replay)];
+
+/// Where the validator says nothing, the device does not stop.
+pub fn two_readings(bytes: &[u8]) {
+    calls::calls(bytes);
+}
+
 const ORDERS: [ByteOrder; 2] = [ByteOrder::Little, ByteOrder::Big];
 
 /// What is read writes back to the same bytes, and every byte is described once.

@@ -55,6 +55,7 @@ fn run_all(scenario: &Scenario) -> Result<Transcript, Mistake> {
         when,
         then,
         reported: world.reported.iter().copied().collect(),
+        stops: world.stopped && !world.unsupported,
         passed,
     })
 }

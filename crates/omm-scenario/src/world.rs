@@ -230,7 +230,9 @@ impl World {
     /// Changes bytes of device memory, as an application that has it mapped.
     pub(crate) fn write(&mut self, address: u64, bytes: &[u8], node: &Node) -> Result<(), Mistake> {
         self.spend(Cost::Bytes, bytes.len() as u64, node)?;
-        let written = self.device.write(vk::DeviceAddress(address), bytes);
+        let (address, size) = (vk::DeviceAddress(address), bytes.len() as u64);
+        let written = self.device.write(address, bytes);
+        self.validator.track_write(vk::DeviceAddressRange { address, size });
         written.map_err(|error| node.mistake(self.objects.named(&error.to_string())))
     }
 }
