@@ -2,13 +2,19 @@
 
 use arbitrary::Unstructured;
 use omm_device::{Device, Reason, Undefined};
-use omm_model::call::Call;
+use omm_layout::object::ObjectHeader;
+use omm_model::call::{Call, Output, Timeline};
+use omm_model::memory::MemoryView;
 use omm_model::profile::DeviceProfile;
+use omm_model::vk;
 use omm_validate::Validator;
 
 mod program;
 mod recorder;
+mod replay;
 mod spoil;
+
+pub use replay::replay;
 
 use program::{HEAP, programs};
 use recorder::{Step, put_host};
@@ -56,9 +62,15 @@ pub fn calls(bytes: &[u8]) -> Outcome {
 /// The same, but leaves the judgement to the caller.
 #[must_use]
 pub fn run(bytes: &[u8]) -> Outcome {
+    execute(spoiled(bytes).iter())
+}
+
+/// The program that the bytes choose, spoiled as they say.
+fn spoiled(bytes: &[u8]) -> Vec<Step> {
     let mut choices = Unstructured::new(bytes);
     let program = choices.choose_index(programs().len()).unwrap_or_default();
-    let mut steps = programs()[program].clone();
+    let program = &programs()[program];
+    let mut steps = program.steps.clone();
     // One mistake more often than several, and sometimes none.
     let spoils = choices.choose(&[0, 1, 1, 1, 2, 2, 3, 6]).copied().unwrap_or_default();
     for _ in 0..spoils {
@@ -67,18 +79,24 @@ pub fn run(bytes: &[u8]) -> Outcome {
             break;
         }
     }
-    execute(&steps)
+    program.prologue.iter().cloned().chain(steps).collect()
 }
 
-fn execute(steps: &[Step]) -> Outcome {
+fn execute<'a>(steps: impl Iterator<Item = &'a Step>) -> Outcome {
     let profile = DeviceProfile::reference();
     let (mut device, mut validator) = (Device::with_heap_size(profile.clone(), HEAP), Validator::new(profile));
-    let mut outcome = Outcome::default();
+    let (mut outcome, mut copied) = (Outcome::default(), Vec::new());
     for step in steps {
         match step {
-            Step::Write(address, bytes) => drop(device.write(*address, bytes)),
+            Step::Write(address, bytes) => {
+                if device.write(*address, bytes).is_ok() {
+                    validator.track_write(vk::DeviceAddressRange { address: *address, size: bytes.len() as u64 });
+                }
+            }
             Step::Host(address, bytes) => drop(put_host(&mut device, *address, bytes)),
             Step::Call(call) => {
+                ask_sizes(call, &mut device, &mut validator);
+                tell_sizes(call, &mut copied, &device, &mut validator);
                 outcome.reports += validator.check(call, &device).len();
                 match device.execute(call) {
                     Ok(output) => {
@@ -90,6 +108,7 @@ fn execute(steps: &[Step]) -> Outcome {
                     Err(Undefined { why: Reason::HandleTaken { .. } | Reason::Unsupported { .. }, .. }) => {
                         return outcome;
                     }
+                    Err(undefined) if is_of_the_past(&undefined) => return outcome,
                     Err(undefined) => {
                         outcome.undefined = Some((undefined, call.clone()));
                         return outcome;
@@ -99,6 +118,123 @@ fn execute(steps: &[Step]) -> Outcome {
         }
     }
     outcome
+}
+
+/// Whether the device stopped at what only the input of an earlier build tells, which no validator keeps: which instances and
+/// primitives were active, and what the structures refer to that rays reach.
+fn is_of_the_past(undefined: &Undefined) -> bool {
+    match &undefined.why {
+        Reason::Update { what, .. } => ["active primitives", "active instances"].contains(what),
+        _ => undefined.at == "topLevel",
+    }
+}
+
+/// Asks for the sizes of builds before they are called, so that the validator knows what the device needs.
+fn ask_sizes(call: &Call, device: &mut Device, validator: &mut Validator) {
+    let (infos, counts): (_, Vec<Option<Vec<u32>>>) = match call {
+        Call::CmdBuildAccelerationStructures { infos, build_range_infos, .. }
+        | Call::BuildAccelerationStructures { infos, build_range_infos, .. } => {
+            let counts = |ranges: &Vec<vk::BuildRangeInfo>| ranges.iter().map(|range| range.primitive_count).collect();
+            (infos, build_range_infos.iter().map(|ranges| ranges.as_ref().map(counts)).collect())
+        }
+        Call::CmdBuildAccelerationStructuresIndirect { infos, max_primitive_counts, .. } => {
+            (infos, max_primitive_counts.clone())
+        }
+        Call::CmdBuildMicromaps { infos, .. } | Call::BuildMicromaps { infos, .. } => {
+            for info in infos {
+                let asked = vk::Device(1);
+                let (build_type, build_info) = (build_type(call), info.clone());
+                let asks = Call::GetMicromapBuildSizes { device: asked, build_type, build_info };
+                if let Ok(output) = device.execute(&asks) {
+                    validator.track(&asks, &output);
+                }
+            }
+            return;
+        }
+        _ => return,
+    };
+    for (info, max_primitive_counts) in infos.iter().zip(counts) {
+        let (asked, build_type, build_info) = (vk::Device(1), build_type(call), info.clone());
+        let asks =
+            Call::GetAccelerationStructureBuildSizes { device: asked, build_type, build_info, max_primitive_counts };
+        if let Ok(output) = device.execute(&asks) {
+            validator.track(&asks, &output);
+        }
+    }
+}
+
+/// Tells the sizes of what is copied, as a program that asks for them before each copy would be told.
+fn tell_sizes(call: &Call, copied: &mut Vec<Call>, device: &Device, validator: &mut Validator) {
+    let is_copy = |call: &Call| call.command().contains("Copy") && !call.command().contains("CopyMemoryTo");
+    if is_copy(call) {
+        copied.push(call.clone());
+    }
+    if !(is_copy(call) || does_work(call)) {
+        return;
+    }
+    for copy in copied.iter() {
+        match copy {
+            Call::CmdCopyAccelerationStructure { info: vk::CopyAccelerationStructureInfo { src, .. }, .. }
+            | Call::CopyAccelerationStructure { info: vk::CopyAccelerationStructureInfo { src, .. }, .. }
+            | Call::CmdCopyAccelerationStructureToMemory {
+                info: vk::CopyAccelerationStructureToMemoryInfo { src, .. },
+                ..
+            }
+            | Call::CopyAccelerationStructureToMemory {
+                info: vk::CopyAccelerationStructureToMemoryInfo { src, .. },
+                ..
+            } => {
+                let header = device.acceleration_structure(*src).and_then(|found| header(device, found.address));
+                let types = [
+                    vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE,
+                    vk::QueryType::ACCELERATION_STRUCTURE_SERIALIZATION_SIZE,
+                ];
+                for (query_type, value) in types.into_iter().zip(header.into_iter().flatten()) {
+                    let (acceleration_structures, data_size, stride) = (vec![*src], 8, 8);
+                    let asked = Call::WriteAccelerationStructuresProperties {
+                        device: vk::Device(1),
+                        acceleration_structures,
+                        query_type,
+                        data_size,
+                        stride,
+                    };
+                    validator.track(&asked, &Output::Properties(vec![value]));
+                }
+            }
+            Call::CmdCopyMicromap { info: vk::CopyMicromapInfo { src, .. }, .. }
+            | Call::CopyMicromap { info: vk::CopyMicromapInfo { src, .. }, .. }
+            | Call::CmdCopyMicromapToMemory { info: vk::CopyMicromapToMemoryInfo { src, .. }, .. }
+            | Call::CopyMicromapToMemory { info: vk::CopyMicromapToMemoryInfo { src, .. }, .. } => {
+                let header = device.micromap(*src).and_then(|found| header(device, found.address));
+                let types = [vk::QueryType::MICROMAP_COMPACTED_SIZE, vk::QueryType::MICROMAP_SERIALIZATION_SIZE];
+                for (query_type, value) in types.into_iter().zip(header.into_iter().flatten()) {
+                    let (micromaps, data_size, stride) = (vec![*src], 8, 8);
+                    let asked = Call::WriteMicromapsProperties {
+                        device: vk::Device(1),
+                        micromaps,
+                        query_type,
+                        data_size,
+                        stride,
+                    };
+                    validator.track(&asked, &Output::Properties(vec![value]));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Compacted and serialized size of what lies at an address.
+fn header(device: &Device, address: vk::DeviceAddress) -> Option<[u64; 2]> {
+    let header = ObjectHeader::read(device.read(address, ObjectHeader::SIZE).ok()?).ok()?;
+    Some([header.compacted_size, omm_serialize::serialized_size(&header)])
+}
+
+fn build_type(call: &Call) -> vk::AccelerationStructureBuildType {
+    match call.timeline() {
+        Timeline::Host => vk::AccelerationStructureBuildType::HOST,
+        Timeline::Device => vk::AccelerationStructureBuildType::DEVICE,
+    }
 }
 
 /// Whether a call executes something now.

@@ -5,6 +5,7 @@ use std::fmt;
 
 use omm_device::Device;
 use omm_model::call::Output;
+use omm_model::vk;
 use omm_serialize::trace::{Event, Trace};
 use omm_validate::{Report, RuleId, Validator};
 use serde::Serialize;
@@ -67,7 +68,10 @@ fn one(device: &mut Device, validator: &mut Validator, event: &Event) -> Done {
             };
             return Done::Call(report, outcome);
         }
-        Event::Write { address, bytes } => device.write(*address, bytes).err().map(|error| error.to_string()),
+        Event::Write { address, bytes } => {
+            validator.track_write(vk::DeviceAddressRange { address: *address, size: bytes.len() as u64 });
+            device.write(*address, bytes).err().map(|error| error.to_string())
+        }
         Event::WriteHost { address, bytes } => device.write_host(*address, bytes).err().map(|error| error.to_string()),
         Event::AllocateHost { address, size } => match device.allocate_host(*size) {
             Some(found) if found == *address => None,

@@ -67,6 +67,7 @@ fn run_in(world: &mut World, scenario: &Scenario) -> Result<Transcript, Mistake>
         when,
         then,
         reported: world.reported.iter().copied().collect(),
+        stops: world.stopped && !world.unsupported,
         passed,
     })
 }

@@ -146,6 +146,8 @@ pub struct Transcript {
     pub(crate) when: Vec<Group>,
     pub(crate) then: Vec<Check>,
     pub(crate) reported: Vec<RuleId>,
+    #[serde(skip)]
+    pub(crate) stops: bool,
     pub(crate) passed: bool,
 }
 
@@ -160,6 +162,12 @@ impl Transcript {
     #[must_use]
     pub fn reported(&self) -> &[RuleId] {
         &self.reported
+    }
+
+    /// Whether the simulated device stopped on the way, because a call left its behaviour undefined.
+    #[must_use]
+    pub const fn stops(&self) -> bool {
+        self.stops
     }
 
     /// What was expected and not found.

@@ -82,6 +82,12 @@ impl Rule {
         self.id.vuid()
     }
 
+    /// Whether the rule is one of last resort: a general one, looked at only where no other has anything to say of the call.
+    #[must_use]
+    pub fn is_last_resort(&self) -> bool {
+        self.kind == Kind::Own && self.id >= RuleId::Buffer01
+    }
+
     /// The structure or command that the rule belongs to.
     #[must_use]
     pub fn object(&self) -> &'static str {

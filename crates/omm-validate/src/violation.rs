@@ -443,6 +443,8 @@ pub enum ViolationKind {
     InsideRenderPass,
     /// A command stands between the two parts of a suspended render pass instance.
     SuspendedRenderPass,
+    /// What only a rule of our own finds.
+    Own(crate::own::finding::OwnFinding),
     /// An index has to be special and is not.
     NotSpecialIndex {
         /// The index as stored.
@@ -524,6 +526,7 @@ impl ViolationKind {
             Self::NotRecording { found } => format!("a command buffer in the {found} state"),
             Self::InsideRenderPass => "a render pass instance".to_owned(),
             Self::SuspendedRenderPass => "a suspended render pass instance".to_owned(),
+            Self::Own(finding) => finding.found(),
             Self::NotSpecialIndex { found, .. } => found.to_string(),
         }
     }
@@ -603,6 +606,7 @@ impl ViolationKind {
             Self::WrongParent { required, .. } => format!("one of VkDevice {required:#x}"),
             Self::NotRecording { .. } => "one that is being recorded".to_owned(),
             Self::InsideRenderPass | Self::SuspendedRenderPass => "none".to_owned(),
+            Self::Own(finding) => finding.required(),
             Self::NotSpecialIndex { lowest, .. } => {
                 format!("a special index, {lowest} to {}", lowest.saturating_add(3))
             }

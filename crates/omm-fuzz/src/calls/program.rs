@@ -28,24 +28,32 @@ type Program = fn(&mut App<'_>) -> Result<(), AppError>;
 
 const PROGRAMS: [Program; 6] = [khr, updates, copies, ext, host, recording];
 
-/// The programs, written down. Each begins by making an object of every kind.
-pub(crate) fn programs() -> &'static [Vec<Step>] {
-    static RECORDED: OnceLock<Vec<Vec<Step>>> = OnceLock::new();
+/// A program, written down.
+pub(crate) struct Recorded {
+    /// Makes an object of every kind, so that a validator that sees this has seen them all and knows a handle that names nothing.
+    pub(crate) prologue: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
+}
+
+/// The programs.
+pub(crate) fn programs() -> &'static [Recorded] {
+    static RECORDED: OnceLock<Vec<Recorded>> = OnceLock::new();
     RECORDED.get_or_init(|| PROGRAMS.iter().map(|program| record(*program)).collect())
 }
 
-fn record(program: Program) -> Vec<Step> {
+fn record(program: Program) -> Recorded {
     let mut device = Device::with_heap_size(DeviceProfile::reference(), HEAP);
     let mut recorder = Recorder::default();
     let mut app = App::new(&mut device, &mut recorder);
-    // What stops here is missing in the program, which a test of the programs tells.
-    if let Err(error) = prologue(&mut app).and_then(|()| program(&mut app)) {
-        panic!("a program without a mistake: {error}");
-    }
-    recorder.steps
+    let failed = |error| panic!("a program without a mistake: {error}");
+    prologue(&mut app).unwrap_or_else(failed);
+    drop(app);
+    let prologue = std::mem::take(&mut recorder.steps);
+    program(&mut App::new(&mut device, &mut recorder)).unwrap_or_else(failed);
+    Recorded { prologue, steps: recorder.steps }
 }
 
-/// An object of every kind, so that a validator that sees this has seen them all, and knows a handle that names nothing.
+/// An object of every kind.
 fn prologue(app: &mut App<'_>) -> Result<(), AppError> {
     let queue_create_infos = vec![DeviceQueueCreateInfo { queue_family_index: 0, queue_count: 1 }];
     let create_info = DeviceCreateInfo { queue_create_infos, ..Default::default() };

@@ -15,7 +15,7 @@ fn seen() -> &'static BTreeMap<String, Vec<Value>> {
     static SEEN: OnceLock<BTreeMap<String, Vec<Value>>> = OnceLock::new();
     SEEN.get_or_init(|| {
         let mut seen = BTreeMap::new();
-        for step in programs().iter().flatten() {
+        for step in programs().iter().flat_map(|program| &program.steps) {
             if let Step::Call(call) = step
                 && let Ok(mut value) = serde_json::to_value(call)
             {

@@ -17,6 +17,8 @@ impl World {
     /// Writes bytes through the host's mapping of the memory.
     pub(crate) fn write_mapped(&mut self, address: vk::DeviceAddress, bytes: &[u8]) -> Result<(), MemoryError> {
         self.note(|| Event::Write { address, bytes: bytes.to_vec() });
+        let size = bytes.len() as u64;
+        self.validator.track_write(vk::DeviceAddressRange { address, size });
         self.device.write(address, bytes)
     }
 
