@@ -2,7 +2,7 @@
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::{bake, blob, bundle, check, curve, demo, diff, downsample, explain, inspect, render, rules, run};
+use crate::{bake, blob, bundle, check, curve, demo, diff, downsample, explain, inspect, render, rules, run, trace};
 
 /// Opacity micromaps: bake them, look into them, follow the bird curve, watch them save any-hit calls.
 #[derive(Debug, Parser)]
@@ -54,6 +54,8 @@ pub(crate) enum Command {
     Diff(diff::DiffArgs),
     /// Baked micromaps in one file.
     Bundle(bundle::BundleArgs),
+    /// Run, convert and minimize what an application did.
+    Trace(trace::TraceArgs),
 }
 
 const HELP: &str = "\

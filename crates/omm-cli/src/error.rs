@@ -95,6 +95,21 @@ pub(crate) enum CliError {
     /// A bundle does not decode.
     #[error("{}: {source} (the file has {file_size} bytes)", path.display())]
     Bundle { path: PathBuf, file_size: u64, source: omm_serialize::ReadError },
+    /// The bytes of a trace do not decode.
+    #[error("{}: {source} (the file has {file_size} bytes)", path.display())]
+    Trace { path: PathBuf, file_size: u64, source: omm_serialize::ReadError },
+    /// The text of a trace cannot be read, or a trace has no text.
+    #[error("{}: {source}", path.display())]
+    TraceText { path: PathBuf, source: omm_serialize::trace::TraceTextError },
+    /// The name of a file says nothing of the form of trace that is to be written.
+    #[error("{}: a trace is written as .ron (text) or .ommtrace (bytes)", path.display())]
+    TraceExtension { path: PathBuf },
+    /// A trace is of one scenario.
+    #[error("{}: a trace is of one scenario, these are {scenarios}", path.display())]
+    TraceOfMany { path: PathBuf, scenarios: usize },
+    /// A trace does not do what is to be kept of it.
+    #[error("{}: {source}", path.display())]
+    Minimize { path: PathBuf, source: omm_scenario::MinimizeError },
     /// Results of `bake` cannot go into a bundle.
     #[error("{}: {reason}", path.display())]
     Pack { path: PathBuf, reason: String },

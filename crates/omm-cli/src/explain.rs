@@ -157,7 +157,7 @@ fn last_part(vuid: &'static str) -> &'static str {
 }
 
 /// The rules of an identifier or of what identifiers end in; a number may stand in those of several commands.
-fn find(wanted: &str) -> Result<Vec<&'static Rule>, CliError> {
+pub(crate) fn find(wanted: &str) -> Result<Vec<&'static Rule>, CliError> {
     let ends = |vuid: &str| {
         let end = vuid.len().checked_sub(wanted.len()).and_then(|start| vuid.get(start..).zip(vuid.get(..start)));
         end.is_some_and(|(end, before)| {

@@ -25,6 +25,7 @@ mod progress;
 mod render;
 mod rules;
 mod run;
+mod trace;
 mod watch;
 
 use cli::{Cli, Command};
@@ -46,6 +47,7 @@ fn main() -> ExitCode {
         Command::Blob(args) => blob::run(&args, format),
         Command::Diff(args) => diff::run(&args, format),
         Command::Bundle(args) => bundle::run(&args, format),
+        Command::Trace(args) => trace::run(&args, format),
     };
     match result {
         Ok(outcome) => outcome.into(),

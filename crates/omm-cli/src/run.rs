@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use omm_scenario::{Scenario, run as execute};
+use omm_scenario::{Scenario, record, run as execute};
 
 use crate::cli::Format;
 use crate::error::{CliError, Outcome};
-use crate::output;
+use crate::{output, trace};
 
 /// Arguments of `omm run`.
 #[derive(Debug, Args)]
@@ -16,6 +16,9 @@ pub(crate) struct RunArgs {
     /// Scenario files.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Also write down what the only scenario does: .ron for text, .ommtrace for bytes. See `omm trace`.
+    #[arg(long, value_name = "TRACE")]
+    trace: Option<PathBuf>,
 }
 
 const HELP: &str = "\
@@ -24,6 +27,7 @@ The form of a scenario is explained by one: spec-tests/readme.ron.
 Examples:
   omm run spec-tests/readme.ron
   omm run --format json spec-tests/build/*.ron
+  omm run spec-tests/readme.ron --trace readme.ommtrace
 
 Exit status:
   0  every expectation holds
@@ -32,13 +36,23 @@ Exit status:
 
 /// Runs `omm run`.
 pub(crate) fn run(args: &RunArgs, format: Format) -> Result<Outcome, CliError> {
+    if let (Some(path), true) = (&args.trace, args.files.len() > 1) {
+        return Err(CliError::TraceOfMany { path: path.clone(), scenarios: args.files.len() });
+    }
     let mut transcripts = Vec::with_capacity(args.files.len());
     for path in &args.files {
         let bytes = output::read(path)?;
         let text = String::from_utf8(bytes).map_err(|source| CliError::NotText { path: path.clone(), source })?;
         let name = path.display().to_string();
-        transcripts
-            .push(Scenario::parse(&name, &text).and_then(|scenario| execute(&scenario)).map_err(CliError::Scenario)?);
+        let scenario = Scenario::parse(&name, &text).map_err(CliError::Scenario)?;
+        transcripts.push(match &args.trace {
+            Some(path) => {
+                let (transcript, recorded) = record(&scenario).map_err(CliError::Scenario)?;
+                trace::write(&recorded, path)?;
+                transcript
+            }
+            None => execute(&scenario).map_err(CliError::Scenario)?,
+        });
     }
     match format {
         Format::Json => output::print_json(&transcripts)?,

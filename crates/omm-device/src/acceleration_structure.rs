@@ -18,6 +18,8 @@ pub struct AccelerationStructure {
     pub size: u64,
     /// The type given at creation, "generic" included.
     pub ty: vk::AccelerationStructureType,
+    /// Whether memory was promised behind all of the range whenever it is accessed.
+    pub fully_bound: bool,
 }
 
 /// All acceleration structures of a device.
@@ -70,10 +72,10 @@ impl AccelerationStructures {
             return Ok(Output::Result(vk::Result::ERROR_INVALID_OPAQUE_CAPTURE_ADDRESS));
         }
         let address = vk::DeviceAddress(address);
-        Ok(self.insert(handle, AccelerationStructure { address, size: info.size, ty: info.ty }))
+        Ok(self.insert(handle, AccelerationStructure { address, size: info.size, ty: info.ty, fully_bound: false }))
     }
 
-    /// `vkCreateAccelerationStructure2KHR`: a range of addresses.
+    /// `vkCreateAccelerationStructure2KHR`: a range of a buffer's addresses, which may be bound to memory later.
     pub(crate) fn create2(
         &mut self,
         memory: &Memory,
@@ -82,8 +84,9 @@ impl AccelerationStructures {
     ) -> Result<Output, Stop> {
         self.check_new(handle, info.ty)?;
         let vk::DeviceAddressRange { address, size } = info.address_range;
-        memory.place(address.0, size).at("pCreateInfo->addressRange")?;
-        Ok(self.insert(handle, AccelerationStructure { address, size, ty: info.ty }))
+        memory.in_buffer(address.0, size).at("pCreateInfo->addressRange")?;
+        let fully_bound = info.address_flags.contains(vk::AddressCommandFlags::FULLY_BOUND);
+        Ok(self.insert(handle, AccelerationStructure { address, size, ty: info.ty, fully_bound }))
     }
 
     /// `vkDestroyAccelerationStructureKHR`. The bytes stay.

@@ -292,6 +292,17 @@ impl<'a> App<'a> {
         let create_info =
             vk::CommandPoolCreateInfo { flags: vk::CommandPoolCreateFlags::TRANSIENT, ..Default::default() };
         self.call(&Call::CreateCommandPool { device: DEVICE, create_info, command_pool })?;
+        let submitted = self.submit_from(command_pool, commands);
+        // Whatever became of the commands, the pool is not needed any more.
+        self.call(&Call::DestroyCommandPool { device: DEVICE, command_pool })?;
+        submitted
+    }
+
+    fn submit_from(
+        &mut self,
+        command_pool: vk::CommandPool,
+        commands: impl FnOnce(vk::CommandBuffer) -> Vec<Call>,
+    ) -> Result<(), AppError> {
         let command_buffer = vk::CommandBuffer(self.handle());
         let allocate_info =
             vk::CommandBufferAllocateInfo { command_pool, command_buffer_count: 1, ..Default::default() };
@@ -305,7 +316,6 @@ impl<'a> App<'a> {
         }
         self.call(&Call::EndCommandBuffer { command_buffer })?;
         self.call(&Call::QueueSubmit { queue: QUEUE, command_buffers: vec![command_buffer] })?;
-        self.call(&Call::DestroyCommandPool { device: DEVICE, command_pool })?;
         Ok(())
     }
 }

@@ -84,9 +84,12 @@ impl Device {
         required: u64,
     ) -> Result<Range, Reason> {
         let range = self.range(holder)?;
-        let created = match holder {
-            Holder::Structure(handle) => kind_of(self.structures.get(handle)?.ty),
-            Holder::Micromap(_) => Some(ObjectKind::Micromap),
+        let (created, fully_bound) = match holder {
+            Holder::Structure(handle) => {
+                let found = self.structures.get(handle)?;
+                (kind_of(found.ty), found.fully_bound)
+            }
+            Holder::Micromap(_) => (Some(ObjectKind::Micromap), false),
         };
         if let Some(found) = created.filter(|found| *found != kind) {
             return Err(Reason::CreatedAs { object: holder.name(), handle: holder.handle(), found, required: kind });
@@ -94,7 +97,7 @@ impl Device {
         if range.size < required {
             return Err(Reason::TooSmall { required, available: range.size });
         }
-        let place = self.memory.place(range.address, required)?;
+        let place = self.memory.place(range.address, if fully_bound { range.size } else { required })?;
         self.check_reach(timeline, &place)?;
         Ok(range)
     }

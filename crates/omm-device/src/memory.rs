@@ -126,6 +126,15 @@ impl Memory {
         Ok(Place { origin: Origin::Device(binding.memory), bytes: start..end })
     }
 
+    /// Requires a range of addresses to lie in one buffer, bound to memory or not.
+    pub(crate) fn in_buffer(&self, address: u64, size: u64) -> Result<(), MemoryError> {
+        let unknown = MemoryError { address, size, available: 0 };
+        let (base, buffer) = self.by_address.range(..=address).next_back().ok_or(unknown)?;
+        let limit = self.buffers.get(buffer).ok_or(unknown)?.size;
+        let available = limit.checked_sub(address - base).filter(|available| *available > 0).ok_or(unknown)?;
+        if size <= available { Ok(()) } else { Err(MemoryError { available, ..unknown }) }
+    }
+
     pub(crate) fn read(&self, address: impl Into<Address>, size: u64) -> Result<&[u8], MemoryError> {
         let address = address.into();
         let place = self.place(address, size)?;

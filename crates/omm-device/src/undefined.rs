@@ -176,7 +176,7 @@ pub enum Reason {
         operation: u64,
     },
     /// A primary command buffer where a secondary one is needed, or the other way round.
-    #[error("command buffer {command_buffer:#x} has level {found:?}, not {required:?}")]
+    #[error("command buffer {command_buffer:#x} has level {}, not {}", named(found.name(), found.0), named(required.name(), required.0))]
     CommandBufferLevel {
         /// The command buffer.
         command_buffer: u64,
@@ -215,7 +215,7 @@ pub enum Reason {
         limit: u32,
     },
     /// The pool's queries are of another type than the command writes.
-    #[error("the pool's queries are of type {found:?}, those of the command of type {required:?}")]
+    #[error("the pool's queries are of type {}, those of the command of type {}", named(found.name(), found.0), named(required.name(), required.0))]
     QueryType {
         /// The pool's type.
         found: vk::QueryType,
@@ -279,7 +279,7 @@ pub enum Reason {
         required: ObjectKind,
     },
     /// Geometry of a type that the structure cannot be built from, or a union and a type that contradict each other.
-    #[error("geometry of type {found:?} cannot be built into this structure, or its data is of another type")]
+    #[error("geometry of type {} cannot be built into this structure, or its data is of another type", named(found.name(), found.0))]
     GeometryType {
         /// The type given.
         found: vk::GeometryType,
@@ -344,7 +344,7 @@ pub enum Reason {
         compatibility: Uuid,
     },
     /// An update that changes what an update must leave alone, or of a structure that was not built for updates.
-    #[error("the update's source was built with {what} {found}, the update needs {required}")]
+    #[error("the update's source was built with {what} {}, the update needs {}", differing(what, *.found), differing(what, *.required))]
     Update {
         /// What differs.
         what: &'static str,
@@ -365,6 +365,16 @@ impl From<ReadError> for Reason {
     fn from(error: ReadError) -> Self {
         Self::Read(Box::new(error))
     }
+}
+
+/// An enumerant by its name, where it has one.
+fn named(name: Option<&str>, value: i32) -> String {
+    name.map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// What differs: flags and addresses in hexadecimal, all else as numbers.
+fn differing(what: &str, value: u64) -> String {
+    if what.ends_with("flags") || what.ends_with("at") { format!("{value:#x}") } else { value.to_string() }
 }
 
 /// The kind in words.

@@ -50,7 +50,7 @@ fn a_structure_can_be_made_before_its_buffer_has_memory() {
         call(Call::DestroyAccelerationStructure { device: DEVICE, acceleration_structure }).ok();
     }
     let address = vk::DeviceAddress(0x1_0000_0100);
-    let expected = AccelerationStructure { address, size: 768, ty };
+    let expected = AccelerationStructure { address, size: 768, ty, fully_bound: false };
     assert_eq!(device.acceleration_structure(vk::AccelerationStructure(6)), Some(&expected));
     assert_eq!(device.acceleration_structure(vk::AccelerationStructure(7)), None);
     assert_eq!(device.unused_handle(), 8);

@@ -178,7 +178,7 @@ fn an_update_moves_vertices_and_nothing_else() {
     assert_eq!(update(6.0, &|_| (), &other).unwrap(), 6.0);
     let why = |result: Result<f32, AppError>| undefined(result).to_string();
     let flags = why(update(7.0, &|info| info.flags |= vk::BuildAccelerationStructureFlags::LOW_MEMORY, &other));
-    assert!(flags.ends_with("the update's source was built with flags 1, the update needs 17"), "{flags}");
+    assert!(flags.ends_with("the update's source was built with flags 0x1, the update needs 0x11"), "{flags}");
     let opaque = |info: &mut vk::BuildGeometryInfo| {
         info.geometries.as_mut().unwrap()[0].flags = vk::GeometryFlags::OPAQUE;
     };

@@ -1,5 +1,7 @@
 //! Inputs to begin with, made of our own output.
 
+use std::path::Path;
+
 use omm_layout::object::{BlasContents, BlasGeometry, BlasPrimitives, MappedTriangle, MicromapContents};
 use omm_layout::object::{MicromapTriangleData, MotionTlasContents, TlasContents};
 use omm_model::format::OpacityMicromapFormat;
@@ -9,13 +11,16 @@ use omm_model::special_index::TriangleMap;
 use omm_model::triangle::MicromapTriangle;
 use omm_model::usage::histogram;
 use omm_model::vk;
+use omm_scenario::{Library, Scenario, record};
 use omm_serialize::bundle::{BundleData, MicromapData, Source};
 use omm_serialize::{Block, ByteOrder, Header, References, serialize_object};
 
-/// Serialized objects of every kind, built and compacted; headers in both byte orders; bundles. Each also behind a byte that cuts it
-/// into pieces.
+/// How many scenarios are seeds.
+const SCENARIOS: usize = 40;
+
+/// Serialized objects of every kind, built and compacted; headers in both byte orders.
 #[must_use]
-pub fn seeds() -> Vec<Vec<u8>> {
+pub fn blobs() -> Vec<Vec<u8>> {
     let mut seeds = vec![Vec::new()];
     for object in objects() {
         let compacted = omm_layout::object::compact(&object).unwrap_or_default();
@@ -29,11 +34,54 @@ pub fn seeds() -> Vec<Vec<u8>> {
         let header = Header::for_payload(Uuid([3; 16]), Uuid([4; 16]), 99, references, 4);
         seeds.extend([ByteOrder::Little, ByteOrder::Big].map(|order| header.write(order, b"body")));
     }
-    seeds.push(BundleData::default().write());
-    seeds.push(BundleData { micromaps: vec![micromap(), MicromapData::default()] }.write());
-    let pieces: Vec<_> = seeds.iter().map(|seed| [&[6], seed.as_slice()].concat()).collect();
-    seeds.extend(pieces);
     seeds
+}
+
+/// The same behind a byte that cuts them into pieces.
+#[must_use]
+pub fn blobs_in_pieces() -> Vec<Vec<u8>> {
+    blobs().iter().map(|seed| [&[6], seed.as_slice()].concat()).collect()
+}
+
+/// Bundles of nothing and of two micromaps.
+#[must_use]
+pub fn bundles() -> Vec<Vec<u8>> {
+    vec![BundleData::default().write(), BundleData { micromaps: vec![micromap(), MicromapData::default()] }.write()]
+}
+
+/// The scenarios of `spec-tests` that are shortest, as many as tests have time for.
+#[must_use]
+pub fn scenarios() -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../spec-tests");
+    let Ok(library) = Library::read(&folder) else { return Vec::new() };
+    let mut seeds: Vec<_> = library.iter().map(|(_, scenario)| scenario.text().as_bytes().to_vec()).collect();
+    seeds.sort_by_key(Vec::len);
+    seeds.truncate(SCENARIOS);
+    seeds
+}
+
+/// What those scenarios do, in both forms.
+#[must_use]
+pub fn traces() -> Vec<Vec<u8>> {
+    let mut seeds = Vec::new();
+    for text in scenarios().iter().filter_map(|text| std::str::from_utf8(text).ok()).step_by(4) {
+        if let Ok((_, trace)) = Scenario::parse("seed.ron", text).and_then(|scenario| record(&scenario)) {
+            seeds.push(trace.write());
+            seeds.extend(trace.to_text().map(String::into_bytes));
+        }
+    }
+    seeds
+}
+
+/// Bytes without a meaning of their own, for targets that make choices of them.
+#[must_use]
+pub fn numbers() -> Vec<Vec<u8>> {
+    let mut state = 1_u32;
+    let mut next = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    };
+    [0, 1, 8, 40, 200, 1000].iter().map(|&length| (0..length).map(|_| next()).collect()).collect()
 }
 
 fn objects() -> Vec<Vec<u8>> {

@@ -25,6 +25,9 @@
 //! `spec-tests/readme.ron` explains the whole form. The text is [RON](https://docs.rs/ron); names without quotes may stand for
 //! values, so that enumerants are written as in C.
 //!
+//! What a scenario does can be written down as a [trace](omm_serialize::trace) with [`record`], run again with [`replay`], and made
+//! smaller with [`minimize`] until nothing is left but what a report needs.
+//!
 //! Paths of changes are those of reports, so that what a report says can be pasted into a scenario and back; `…` in a path stands
 //! for any steps. An unknown one is an error that shows its place in the source and the names nearest to it:
 //!
@@ -47,10 +50,12 @@ mod expect;
 mod given;
 mod library;
 mod limits;
+mod minimize;
 mod nearest;
 mod node;
 mod objects;
 mod path;
+mod replay;
 mod run;
 mod scenario;
 mod show;
@@ -63,7 +68,9 @@ mod world;
 
 pub use error::ScenarioError;
 pub use library::{Library, LibraryError, files};
+pub use minimize::{Keep, MinimizeError, MinimizeProgress, minimize};
 pub use nearest::names_like;
-pub use run::run;
+pub use replay::{Replay, replay};
+pub use run::{record, run};
 pub use scenario::Scenario;
 pub use transcript::{Finding, Transcript};

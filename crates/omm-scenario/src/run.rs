@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use omm_serialize::trace::Trace;
 use omm_validate::RuleId;
 
 use crate::error::{Mistake, ScenarioError};
@@ -21,12 +22,23 @@ use crate::world::{Preparation, World};
 /// A place in the text that asks for what there is not: an unknown object, parameter or argument, a value that does not fit, an
 /// object that cannot be prepared. A scenario whose expectations fail is no error; see [`Transcript::passed`].
 pub fn run(scenario: &Scenario) -> Result<Transcript, ScenarioError> {
-    run_all(scenario).map_err(|mistake| ScenarioError::new(&scenario.source, mistake))
+    let mut world = World::new(scenario.profile.clone());
+    run_in(&mut world, scenario).map_err(|mistake| ScenarioError::new(&scenario.source, mistake))
 }
 
-fn run_all(scenario: &Scenario) -> Result<Transcript, Mistake> {
+/// Runs a scenario as [`run`] does, and writes down what it does, up to the call at which the device stops.
+///
+/// # Errors
+/// As [`run`].
+pub fn record(scenario: &Scenario) -> Result<(Transcript, Trace), ScenarioError> {
     let mut world = World::new(scenario.profile.clone());
-    let given = make(&mut world, scenario)?;
+    world.events = Some(Vec::new());
+    let transcript = run_in(&mut world, scenario).map_err(|mistake| ScenarioError::new(&scenario.source, mistake))?;
+    Ok((transcript, Trace { profile: scenario.profile.clone(), events: world.events.unwrap_or_default() }))
+}
+
+fn run_in(world: &mut World, scenario: &Scenario) -> Result<Transcript, Mistake> {
+    let given = make(world, scenario)?;
     let mut when = Vec::with_capacity(scenario.when.len());
     for node in &scenario.when {
         if world.stopped {
@@ -35,7 +47,7 @@ fn run_all(scenario: &Scenario) -> Result<Transcript, Mistake> {
         world.step(node)?;
         when.push(std::mem::take(&mut world.group));
     }
-    let scene = Scene { world: &world, groups: given.iter().chain(&when).collect() };
+    let scene = Scene { world, groups: given.iter().chain(&when).collect() };
     let text = |node: &Node| scenario.source.text.get(node.span.start..node.span.end).unwrap_or_default();
     let mut then = scenario.then.iter().map(|node| scene.check(node, text(node))).collect::<Result<Vec<_>, _>>()?;
     then.extend(rules(scenario, &world.reported));
@@ -55,6 +67,7 @@ fn run_all(scenario: &Scenario) -> Result<Transcript, Mistake> {
         when,
         then,
         reported: world.reported.iter().copied().collect(),
+        stops: world.stopped && !world.unsupported,
         passed,
     })
 }

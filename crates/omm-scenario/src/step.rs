@@ -101,6 +101,7 @@ impl World {
         for call in &after {
             if let Outcome::Undefined(_) = self.issue(call, true) {
                 self.stopped = true;
+                break;
             }
         }
         Ok(())
@@ -154,6 +155,7 @@ impl World {
         for call in &after {
             if let Outcome::Undefined(_) = self.issue(call, true) {
                 self.stopped = true;
+                break;
             }
         }
         Ok(())

@@ -3,9 +3,12 @@
 use std::fmt;
 
 use omm_device::Undefined;
-use omm_model::call::Output;
-use omm_validate::RuleId;
+use omm_model::call::{Call, Output};
+use omm_validate::{Report, RuleId, Violation};
 use serde::Serialize;
+
+use crate::objects::Objects;
+use crate::summary;
 
 /// What the device made of a call.
 #[derive(Clone, Debug)]
@@ -50,6 +53,49 @@ pub(crate) struct CallRecord {
 }
 
 impl CallRecord {
+    /// What the validator reported of a call and what the device made of it, in the words of the objects' names.
+    pub(crate) fn new(call: &Call, is_main: bool, report: &Report, outcome: &Outcome, objects: &Objects) -> Self {
+        let finding = |violation: &Violation| Finding {
+            rule: violation.rule,
+            at: objects.named(violation.location.as_str()),
+            found: objects.named(&violation.kind.found()),
+            required: objects.named(&violation.kind.required()),
+        };
+        let (text, output) = match outcome {
+            Outcome::Output(output) => (summary::output(output, objects), Some(output.clone())),
+            Outcome::Undefined(undefined) => (Some(objects.named(&undefined.to_string())), None),
+        };
+        Self {
+            command: call.command(),
+            summary: summary::call(call, objects),
+            is_main,
+            findings: report.iter().map(finding).collect(),
+            outcome: text,
+            is_undefined: output.is_none(),
+            output,
+        }
+    }
+
+    /// The command and what it was given.
+    pub(crate) fn head(&self) -> String {
+        let separator = if self.summary.is_empty() { "" } else { ": " };
+        format!("{}{separator}{}", self.command, self.summary)
+    }
+
+    /// What was reported and what came of it, so many blanks from the left.
+    pub(crate) fn fmt_details(&self, f: &mut fmt::Formatter<'_>, indent: usize) -> fmt::Result {
+        for Finding { rule, at, found, required } in &self.findings {
+            writeln!(f, "{:indent$}! {rule}", "")?;
+            writeln!(f, "{:indent$}  {at}", "")?;
+            writeln!(f, "{:indent$}  found {found}, required {required}", "")?;
+        }
+        if let Some(outcome) = &self.outcome {
+            let undefined = if self.is_undefined { "undefined: " } else { "" };
+            writeln!(f, "{:indent$}→ {undefined}{outcome}", "")?;
+        }
+        Ok(())
+    }
+
     /// Whether there is anything to say about it.
     fn is_shown(&self) -> bool {
         self.is_main || self.is_undefined || !self.findings.is_empty()
@@ -105,6 +151,8 @@ pub struct Transcript {
     pub(crate) when: Vec<Group>,
     pub(crate) then: Vec<Check>,
     pub(crate) reported: Vec<RuleId>,
+    #[serde(skip)]
+    pub(crate) stops: bool,
     pub(crate) passed: bool,
 }
 
@@ -125,6 +173,12 @@ impl Transcript {
     pub fn findings(&self) -> impl Iterator<Item = (&'static str, &Finding)> {
         let calls = self.given.iter().chain(&self.when).flat_map(|group| &group.calls);
         calls.flat_map(|call| call.findings.iter().map(|finding| (call.command, finding)))
+    }
+
+    /// Whether the simulated device stopped on the way, because a call left its behaviour undefined.
+    #[must_use]
+    pub const fn stops(&self) -> bool {
+        self.stops
     }
 
     /// What was expected and not found.
@@ -169,18 +223,9 @@ impl fmt::Display for Group {
         for call in self.calls.iter().filter(|call| call.is_shown()) {
             // What only leads to the device's stop says nothing by itself; the reason names the command.
             if call.is_main || !call.findings.is_empty() {
-                let separator = if call.summary.is_empty() { "" } else { ": " };
-                writeln!(f, "    {}{separator}{}", call.command, call.summary)?;
+                writeln!(f, "    {}", call.head())?;
             }
-            for Finding { rule, at, found, required } in &call.findings {
-                writeln!(f, "      ! {rule}")?;
-                writeln!(f, "        {at}")?;
-                writeln!(f, "        found {found}, required {required}")?;
-            }
-            if let Some(outcome) = &call.outcome {
-                let undefined = if call.is_undefined { "undefined: " } else { "" };
-                writeln!(f, "      → {undefined}{outcome}")?;
-            }
+            call.fmt_details(f, 6)?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 //! What a scenario runs in: a simulated device, a validator that looks over its shoulder, and the objects made so far.
 
 mod buffer;
+mod recording;
 mod structure;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,6 +10,7 @@ use omm_device::Device;
 use omm_model::call::{Call, Output};
 use omm_model::profile::DeviceProfile;
 use omm_model::vk;
+use omm_serialize::trace::Event;
 use omm_validate::{RuleId, Validator};
 
 use crate::error::Mistake;
@@ -16,8 +18,7 @@ use crate::given::MicromapTriangles;
 use crate::limits;
 use crate::node::Node;
 use crate::objects::{Object, Objects};
-use crate::summary;
-use crate::transcript::{CallRecord, Finding, Group, Outcome};
+use crate::transcript::{CallRecord, Group, Outcome};
 
 pub(crate) use buffer::{BufferRequest, INPUT};
 pub(crate) use structure::{Handle, Preparation, Recipe, Storage, Structure};
@@ -46,6 +47,8 @@ pub(crate) struct World {
     pub(crate) stopped: bool,
     /// Whether something was asked of the device that it does not simulate, so that it knows less than the validator.
     pub(crate) unsupported: bool,
+    /// What was done so far, where somebody wants to know.
+    pub(crate) events: Option<Vec<Event>>,
     budget: Budget,
 }
 
@@ -83,6 +86,7 @@ impl World {
             reported: BTreeSet::new(),
             stopped: false,
             unsupported: false,
+            events: None,
             budget: Budget {
                 primitives: limits::PRIMITIVES,
                 microtriangles: limits::MICROTRIANGLES,
@@ -127,6 +131,7 @@ impl World {
 
     /// Issues a call: the validator looks at it, the device executes it, the record keeps what they say.
     pub(crate) fn issue(&mut self, call: &Call, is_main: bool) -> Outcome {
+        self.note(|| call.clone().into());
         let report = self.validator.check(call, &self.device);
         let outcome = match self.device.execute(call) {
             Ok(output) => {
@@ -138,30 +143,8 @@ impl World {
                 Outcome::Undefined(Box::new(undefined))
             }
         };
-        let finding = |violation: &omm_validate::Violation| Finding {
-            rule: violation.rule,
-            at: self.objects.named(violation.location.as_str()),
-            found: self.objects.named(&violation.kind.found()),
-            required: self.objects.named(&violation.kind.required()),
-        };
-        let findings: Vec<Finding> = report.iter().map(finding).collect();
-        self.reported.extend(findings.iter().map(|finding| finding.rule));
-        let text = match &outcome {
-            Outcome::Output(output) => summary::output(output, &self.objects),
-            Outcome::Undefined(undefined) => Some(self.objects.named(&undefined.to_string())),
-        };
-        self.group.calls.push(CallRecord {
-            command: call.command(),
-            summary: summary::call(call, &self.objects),
-            is_main,
-            findings,
-            outcome: text,
-            is_undefined: matches!(outcome, Outcome::Undefined(_)),
-            output: match &outcome {
-                Outcome::Output(output) => Some(output.clone()),
-                Outcome::Undefined(_) => None,
-            },
-        });
+        self.reported.extend(report.iter().map(|violation| violation.rule));
+        self.group.calls.push(CallRecord::new(call, is_main, &report, &outcome, &self.objects));
         outcome
     }
 
@@ -235,7 +218,7 @@ impl World {
     /// Changes bytes of device memory, as an application that has it mapped.
     pub(crate) fn write(&mut self, address: u64, bytes: &[u8], node: &Node) -> Result<(), Mistake> {
         self.spend(Cost::Bytes, bytes.len() as u64, node)?;
-        let written = self.device.write(vk::DeviceAddress(address), bytes);
+        let written = self.write_mapped(vk::DeviceAddress(address), bytes);
         written.map_err(|error| node.mistake(self.objects.named(&error.to_string())))
     }
 }

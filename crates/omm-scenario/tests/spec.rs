@@ -92,6 +92,54 @@ fn the_library_holds_every_scenario() {
     }
 }
 
+/// Why the simulated device does not stop where a rule is broken: the last word of a line of `rules-without-effect.txt`.
+const REASONS: [&str; 8] = [
+    // It needs no promise of the program that a driver may need: alignment, usage, features, queues, render passes.
+    "promise",
+    // It is one device, whatever device, physical device or group a call names.
+    "one-device",
+    // It looks at what a structure is and not at what it or its chain says beside that.
+    "structure",
+    // It does not look at the value, or not at all of it.
+    "unread",
+    // It has an answer all the same, which is not one of a driver.
+    "answered",
+    // It says that it does not simulate this, which is no judgement.
+    "unsupported",
+    // What is broken is only recorded or asked for; a stop would come of another mistake.
+    "asked",
+    // What is built is complete; only what is made of it later is wrong.
+    "later",
+];
+
+/// Two readings: a rule with an effect that can be seen has a scenario in which the device stops. The others are listed, with why.
+#[test]
+fn the_device_stops_where_a_rule_is_broken_that_has_an_effect() {
+    let listed = std::fs::read_to_string(folder().join("rules-without-effect.txt")).unwrap();
+    let lines = listed.lines().filter(|line| !line.starts_with('#') && !line.is_empty());
+    let listed: BTreeSet<&str> = lines
+        .map(|line| line.split_once(' ').expect(line))
+        .map(|(vuid, reason)| {
+            assert!(REASONS.contains(&reason), "{vuid}: {reason} is no reason");
+            vuid
+        })
+        .collect();
+    let (library, mut stopping) = (library(), BTreeSet::new());
+    let mut breaking = BTreeSet::new();
+    for (_, scenario) in library.iter().filter(|(_, scenario)| !scenario.breaks().is_empty()) {
+        breaking.extend(scenario.breaks().iter().map(|rule| rule.vuid()));
+        if run(scenario).unwrap().stops() {
+            stopping.extend(scenario.breaks().iter().map(|rule| rule.vuid()));
+        }
+    }
+    let silent: BTreeSet<&str> = breaking.difference(&stopping).copied().collect();
+    println!("{} rules stop the device, {} do not", stopping.len(), silent.len());
+    let unlisted: Vec<_> = silent.difference(&listed).collect();
+    let settled: Vec<_> = listed.difference(&silent).collect();
+    assert!(unlisted.is_empty(), "the device goes on where these are broken, and no reason is listed: {unlisted:#?}");
+    assert!(settled.is_empty(), "the device stops where these are broken, or no scenario breaks them: {settled:#?}");
+}
+
 #[test]
 fn transcripts_are_the_same_each_time_and_for_programs() {
     for (path, scenario) in library().iter() {

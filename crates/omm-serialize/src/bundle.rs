@@ -27,9 +27,8 @@ use omm_model::special_index::OpacityMicromapSpecialIndex;
 use omm_model::triangle::MicromapTriangle;
 use omm_model::usage::{self, MicromapUsage};
 
-use crate::{ReadError, ReadErrorKind};
+use crate::{ReadError, ReadErrorKind, codec};
 
-mod codec;
 mod data;
 mod describe;
 mod section;

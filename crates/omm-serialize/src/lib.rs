@@ -17,6 +17,7 @@
 //! | [`serialize_object`], [`deserialize_object`] | our own payload, specified in `docs/device-layout.md` |
 //! | [`replace_references`] | relocation of handles and micromap addresses in place |
 //! | [`bundle`] | `.omm` files: baked micromaps to keep on disk |
+//! | [`trace`] | what an application did: its calls and uploads, as text and as bytes |
 //! | [`compatibility`] | whether a device can take the data |
 //!
 //! Reading never allocates because of a count: it compares counts with the sizes claimed, and both with the bytes at hand. An
@@ -57,6 +58,7 @@
 pub mod blob;
 pub mod bundle;
 pub mod byte_order;
+mod codec;
 mod compatibility;
 pub mod departure;
 mod describe;
@@ -66,6 +68,7 @@ mod object;
 pub mod relocate;
 pub mod stream;
 pub mod summary;
+pub mod trace;
 
 pub use blob::{Blob, Head};
 pub use byte_order::{ByteOrder, DetectedOrder};

@@ -90,6 +90,12 @@ impl Rule {
         !matches!(self.kind, Kind::Own) && !matches!(self.id, RuleId::Type03654 | RuleId::Flags03796)
     }
 
+    /// Whether the rule is one of last resort: a general one, looked at only where no other has anything to say of the call.
+    #[must_use]
+    pub fn is_last_resort(&self) -> bool {
+        self.kind == Kind::Own && self.id >= RuleId::Buffer01
+    }
+
     /// The structure or command that the rule belongs to.
     #[must_use]
     pub fn object(&self) -> &'static str {

@@ -26,6 +26,8 @@ use crate::location::At;
 use crate::report::Report;
 use crate::state::State;
 
+pub(crate) use triangles_data::offset_by;
+
 /// Checks what one build structure refers to. A query of build sizes reads no memory.
 pub(crate) fn check_build(build: &BuildContext<'_>, state: &State, memory: &dyn MemoryView, report: &mut Report) {
     if build.purpose == Purpose::Sizes {
@@ -69,7 +71,7 @@ pub(crate) fn check_call(call: &Call, command: &At<'_>, state: &State, memory: &
 }
 
 /// The range that is built of a geometry: from the command or, for an indirect build, from device memory as it is now.
-fn range(geometry: &GeometryContext<'_>, memory: &dyn MemoryView) -> Option<vk::BuildRangeInfo> {
+pub(crate) fn range(geometry: &GeometryContext<'_>, memory: &dyn MemoryView) -> Option<vk::BuildRangeInfo> {
     let Purpose::Indirect { ranges, stride, .. } = geometry.build.purpose else {
         let (_, ranges) = geometry.build.ranges?;
         return ranges?.get(geometry.index).copied();

@@ -44,6 +44,8 @@ pub(crate) struct BuildContext<'a> {
     pub(crate) infos: &'a [vk::BuildGeometryInfo],
     /// Where the build ranges are, for a build: the parameter and the ranges or null pointer that it has for this build.
     pub(crate) ranges: Option<(At<'a>, Option<&'a [vk::BuildRangeInfo]>)>,
+    /// For an indirect build: the most primitives of each geometry.
+    pub(crate) announced: Option<&'a [u32]>,
     pub(crate) purpose: Purpose,
     pub(crate) limits: &'a Limits,
     pub(crate) features: &'a Features,
@@ -59,6 +61,8 @@ pub(crate) struct GeometryContext<'a> {
     pub(crate) geometry: &'a vk::Geometry,
     /// How many primitives of it are built, if a range says so.
     pub(crate) primitive_count: Option<u32>,
+    /// How many there may be at most, if the build is indirect.
+    pub(crate) announced: Option<u32>,
 }
 
 /// The input of a micromap build.
@@ -94,7 +98,7 @@ pub(crate) fn each_build(call: &Call, limits: &Limits, features: &Features, mut 
                 let ranges = build_range_infos.get(index).map(|ranges| (ranges_at, ranges.as_deref()));
                 let at = command.element("pInfos", index).about(info.dst_acceleration_structure);
                 let purpose = Purpose::Build { command_buffer: *command_buffer };
-                visit(&BuildContext { at, info, infos, ranges, purpose, limits, features });
+                visit(&BuildContext { at, info, infos, ranges, announced: None, purpose, limits, features });
             }
         }
         Call::CmdBuildAccelerationStructuresIndirect {
@@ -102,7 +106,7 @@ pub(crate) fn each_build(call: &Call, limits: &Limits, features: &Features, mut 
             infos,
             indirect_device_addresses,
             indirect_strides,
-            ..
+            max_primitive_counts,
         } => {
             let command = At::command(call.command(), (vk::CommandBuffer::OBJECT_TYPE, command_buffer.0));
             for (index, info) in infos.iter().enumerate() {
@@ -112,7 +116,8 @@ pub(crate) fn each_build(call: &Call, limits: &Limits, features: &Features, mut 
                     ranges: indirect_device_addresses.get(index).copied().unwrap_or_default(),
                     stride: indirect_strides.get(index).copied().unwrap_or_default(),
                 };
-                visit(&BuildContext { at, info, infos, ranges: None, purpose, limits, features });
+                let announced = max_primitive_counts.get(index).map(|counts| counts.as_deref().unwrap_or_default());
+                visit(&BuildContext { at, info, infos, ranges: None, announced, purpose, limits, features });
             }
         }
         Call::BuildAccelerationStructures { device, infos, build_range_infos, .. } => {
@@ -121,7 +126,8 @@ pub(crate) fn each_build(call: &Call, limits: &Limits, features: &Features, mut 
                 let ranges_at = command.element("ppBuildRangeInfos", index).about(info.dst_acceleration_structure);
                 let ranges = build_range_infos.get(index).map(|ranges| (ranges_at, ranges.as_deref()));
                 let at = command.element("pInfos", index).about(info.dst_acceleration_structure);
-                visit(&BuildContext { at, info, infos, ranges, purpose: Purpose::Host, limits, features });
+                let purpose = Purpose::Host;
+                visit(&BuildContext { at, info, infos, ranges, announced: None, purpose, limits, features });
             }
         }
         Call::GetAccelerationStructureBuildSizes { device, build_info, .. } => {
@@ -129,7 +135,16 @@ pub(crate) fn each_build(call: &Call, limits: &Limits, features: &Features, mut 
             let at = command.pointer("pBuildInfo");
             let infos = std::slice::from_ref(build_info);
             let purpose = Purpose::Sizes;
-            visit(&BuildContext { at, info: build_info, infos, ranges: None, purpose, limits, features });
+            visit(&BuildContext {
+                at,
+                info: build_info,
+                infos,
+                ranges: None,
+                announced: None,
+                purpose,
+                limits,
+                features,
+            });
         }
         _ => {}
     }
@@ -163,13 +178,16 @@ impl BuildContext<'_> {
     pub(crate) fn each_geometry(&self, mut visit: impl FnMut(&GeometryContext<'_>)) {
         let ranges = self.ranges.and_then(|(_, ranges)| ranges).unwrap_or_default();
         let range = |index: usize| ranges.get(index).map(|range| range.primitive_count);
+        let announced = |index: usize| self.announced?.get(index).copied();
         for (index, geometry) in self.info.geometries.iter().flatten().enumerate() {
             let at = self.at.element("pGeometries", index);
-            visit(&GeometryContext { build: self, at, index, geometry, primitive_count: range(index) });
+            let (primitive_count, announced) = (range(index), announced(index));
+            visit(&GeometryContext { build: self, at, index, geometry, primitive_count, announced });
         }
         for (index, geometry) in self.info.geometry_pointers.iter().flatten().enumerate() {
             let at = self.at.element_pointer("ppGeometries", index);
-            visit(&GeometryContext { build: self, at, index, geometry, primitive_count: range(index) });
+            let (primitive_count, announced) = (range(index), announced(index));
+            visit(&GeometryContext { build: self, at, index, geometry, primitive_count, announced });
         }
     }
 }

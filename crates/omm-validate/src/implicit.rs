@@ -23,6 +23,7 @@ mod table;
 mod walk;
 
 use omm_model::call::Call;
+use omm_model::vk;
 
 use crate::context::command_at;
 use crate::report::Report;
@@ -37,6 +38,16 @@ pub(crate) fn check(call: &Call, state: &State, report: &mut Report) {
         parent::check_command(row, call, &command, state, report);
         recording::check(row, call, &command, state, report);
     }
+    check_values(call, state, report);
+}
+
+/// Checks the values of a call: all but the command that it is.
+pub(crate) fn check_values(call: &Call, state: &State, report: &mut Report) {
+    let command = command_at(call);
+    // With a device all that was created on it is gone, and one report is enough.
+    let is_dead =
+        |device: vk::Device| !device.is_null() && state.liveness((vk::Device::OBJECT_TYPE, device.0)).is_invalid();
+    let has_device = !call.device().is_some_and(is_dead);
     walk::each_item(call, &command, &mut |at, owner, item| match item {
         Item::Structure { s_type, required, next } => {
             if let Some(row) = table::structure::STRUCTURES.iter().find(|row| row.name == owner) {
@@ -47,10 +58,11 @@ pub(crate) fn check(call: &Call, state: &State, report: &mut Report) {
         Item::Enumerant { member, value } => enumerant::check(owner, member, at, value, report),
         Item::Flags { member, found, known } => flags::check(owner, member, at, found, known, report),
         Item::Count { member, found } => array::check(owner, member, at, found, report),
-        Item::Handle { member, object } => {
+        Item::Handle { member, object } if has_device => {
             handle::check(owner, member, at, object, state, report);
             parent::check(owner, member, at, object, call, state, report);
         }
+        Item::Handle { .. } => {}
     });
     parent::check_common(call, &command, state, report);
 }

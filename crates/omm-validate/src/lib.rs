@@ -12,6 +12,7 @@
 //! | `tracked/` | also what earlier calls created, bound and recorded ([`state::State`]) |
 //! | `content/` | also the bytes in memory that a build will read, through a [`MemoryView`](omm_model::memory::MemoryView) |
 //! | `implicit/` | what the registry says of every structure and command: types, chains, values, handles, where a command is recorded |
+//! | `own/` | what the specification says in words, of all commands, where no other rule has anything to say of the call |
 //!
 //! Each room has a file for each structure or command, and each rule is one short function there. Implicit rules come by the
 //! dozen, so that room has a file for each kind of check and tables of where it applies. [`catalog::RULES`] is the ledger of all
@@ -78,6 +79,7 @@ mod content;
 mod context;
 mod implicit;
 mod location;
+mod own;
 mod report;
 mod rule;
 pub mod state;
@@ -88,6 +90,7 @@ mod value;
 mod violation;
 
 pub use location::{Location, Object};
+pub use own::finding::OwnFinding;
 pub use report::Report;
 pub use rule::RuleId;
 pub use validator::Validator;

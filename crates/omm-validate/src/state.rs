@@ -19,6 +19,7 @@
 //! Commands recorded into a command buffer act when it is submitted. Rules on what they find then are checked at the submission,
 //! each command with the state that those before it leave; rules that ask while a command is recorded use [`State::built`].
 
+mod change;
 mod command_buffer;
 mod deferred;
 mod device;
@@ -27,16 +28,19 @@ mod memory;
 mod micromap;
 mod object;
 mod query;
+mod sizes;
 mod structure;
 mod track;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use omm_model::profile::DeviceProfile;
 use omm_model::vk;
 
 use crate::location::Object;
 
+pub(crate) use change::Age;
 pub use command_buffer::{CommandBufferState, CommandPoolState, RecordingState};
 pub use deferred::DeferredOperationState;
 pub use device::DeviceState;
@@ -47,23 +51,26 @@ pub use query::{QueryPoolState, QueryStatus};
 pub use structure::{AccelerationStructureState, Attachment, Built, BuiltGeometry, Contents, Deserialized, Storage};
 
 /// All objects that the calls seen so far have made.
+///
+/// A submission is looked at on a copy, so what no command changes is shared with it.
 #[derive(Clone, Debug)]
 pub struct State {
-    profile: std::sync::Arc<DeviceProfile>,
-    objects: BTreeMap<Object, object::ObjectState>,
+    profile: Arc<DeviceProfile>,
+    objects: Arc<BTreeMap<Object, object::ObjectState>>,
     /// The kinds of which a creation was seen.
     seen: BTreeSet<vk::ObjectType>,
     devices: BTreeMap<vk::Device, DeviceState>,
     queues: BTreeMap<vk::Queue, (vk::Device, u32)>,
-    buffers: BTreeMap<vk::Buffer, BufferState>,
+    buffers: Arc<BTreeMap<vk::Buffer, BufferState>>,
     /// The buffers whose address is known, by address.
-    addresses: BTreeMap<(vk::DeviceAddress, vk::Buffer), u64>,
+    addresses: Arc<BTreeMap<(vk::DeviceAddress, vk::Buffer), u64>>,
     /// Size of the largest buffer that ever had an address: how far back from an address its buffer can begin.
     largest_buffer: u64,
-    memories: BTreeMap<vk::DeviceMemory, MemoryState>,
+    memories: Arc<BTreeMap<vk::DeviceMemory, MemoryState>>,
     acceleration_structures: BTreeMap<vk::AccelerationStructure, AccelerationStructureState>,
     micromaps: BTreeMap<vk::Micromap, MicromapState>,
-    micromap_sizes: micromap::BuildSizes,
+    micromap_sizes: Arc<micromap::BuildSizes>,
+    structure_sizes: Arc<sizes::StructureSizes>,
     command_pools: BTreeMap<vk::CommandPool, CommandPoolState>,
     command_buffers: BTreeMap<vk::CommandBuffer, CommandBufferState>,
     query_pools: BTreeMap<vk::QueryPool, QueryPoolState>,
@@ -72,30 +79,43 @@ pub struct State {
     serialized: BTreeMap<execute::Place, execute::Serialized>,
     /// Numbers given to contents, so that a query knows whether its object still holds what was measured.
     contents_count: u64,
+    /// What was serialized by the submission that is being looked at.
+    just_serialized: BTreeSet<execute::Place>,
+    /// Number of the call tracked last, and of the last one that changed what recorded commands may find.
+    serial: u64,
+    changed_at: u64,
+    sees_addresses: bool,
+    sees_bindings: bool,
 }
 
 impl State {
     /// Nothing made yet, on a device like this.
     pub(crate) fn new(profile: &DeviceProfile) -> Self {
         Self {
-            profile: std::sync::Arc::new(profile.clone()),
-            objects: BTreeMap::new(),
+            profile: Arc::new(profile.clone()),
+            objects: Arc::default(),
             seen: BTreeSet::new(),
             devices: BTreeMap::new(),
             queues: BTreeMap::new(),
-            buffers: BTreeMap::new(),
-            addresses: BTreeMap::new(),
+            buffers: Arc::default(),
+            addresses: Arc::default(),
             largest_buffer: 0,
-            memories: BTreeMap::new(),
+            memories: Arc::default(),
             acceleration_structures: BTreeMap::new(),
             micromaps: BTreeMap::new(),
-            micromap_sizes: micromap::BuildSizes::default(),
+            micromap_sizes: Arc::default(),
+            structure_sizes: Arc::default(),
             command_pools: BTreeMap::new(),
             command_buffers: BTreeMap::new(),
             query_pools: BTreeMap::new(),
             operations: BTreeMap::new(),
             serialized: BTreeMap::new(),
             contents_count: 0,
+            just_serialized: BTreeSet::new(),
+            serial: 0,
+            changed_at: 0,
+            sees_addresses: false,
+            sees_bindings: false,
         }
     }
 

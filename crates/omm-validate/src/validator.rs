@@ -3,12 +3,13 @@
 use omm_model::call::{Call, Output};
 use omm_model::memory::MemoryView;
 use omm_model::profile::DeviceProfile;
+use omm_model::vk;
 
 use crate::context::micromap_ext::each_micromap_build;
 use crate::context::{command_at, each_build};
 use crate::report::Report;
-use crate::state::State;
-use crate::{content, implicit, stateless, tracked};
+use crate::state::{Age, State};
+use crate::{content, implicit, own, stateless, tracked};
 
 /// Checks the calls of one device against the rules of valid usage.
 ///
@@ -70,7 +71,63 @@ impl Validator {
             content::check_executed(executed, state, memory, &mut report);
         });
         implicit::check(call, &self.state, &mut report);
+        if report.is_empty() {
+            own::check(call, &self.state, &mut report);
+        }
+        if report.is_empty() {
+            self.check_again(call, memory, &mut report);
+        }
         report
+    }
+
+    /// Looks at what `call` causes to execute with the state and the memory that it finds now.
+    ///
+    /// What was recorded was checked when it was recorded. If nothing has changed since, what was found then is found again, and is
+    /// not told twice.
+    fn check_again(&self, call: &Call, memory: &dyn MemoryView, report: &mut Report) {
+        self.state.each_execution(call, &mut |state, executed, age| {
+            if !report.is_empty() {
+                return;
+            }
+            if age != Age::New {
+                let mut again = Report::default();
+                self.check_recorded(executed, state, memory, &mut again);
+                if !again.is_empty() {
+                    if age == Age::Changed {
+                        *report = again;
+                    }
+                    return;
+                }
+            }
+            own::check_executed(executed, state, memory, report);
+        });
+    }
+
+    /// All that can be said of a recorded command but for where it is recorded.
+    fn check_recorded(&self, call: &Call, state: &State, memory: &dyn MemoryView, report: &mut Report) {
+        let (limits, features, command) = (&self.profile.limits, state.features_for(call), &command_at(call));
+        stateless::check_call(call, command, features, report);
+        tracked::check_call(call, command, state, report);
+        each_build(call, limits, features, |build| {
+            stateless::check_build(build, report);
+            tracked::check_build(build, state, report);
+            content::check_build(build, state, memory, report);
+        });
+        each_micromap_build(call, limits, |build| {
+            stateless::check_micromap_build(build, report);
+            tracked::check_micromap_build(build, state, report);
+            content::check_micromap_build(build, state, memory, report);
+        });
+        if !state.was_just_written() {
+            content::check_call(call, command, state, memory, report);
+        }
+        implicit::check_values(call, state, report);
+    }
+
+    /// Records that the program wrote memory through its mapping. Whatever was built there is gone, and what was recorded is looked
+    /// at again when it is submitted.
+    pub fn track_write(&mut self, range: vk::DeviceAddressRange) {
+        self.state.written(range);
     }
 
     /// Records what `call` did, given what it returned.

@@ -88,7 +88,11 @@ impl Device {
         timeline: Timeline,
     ) -> Result<Vec<Option<TriangleVertices>>, Stop> {
         let format = VertexFormat::try_from(data.vertex_format);
-        let format = format.map_err(|found| Reason::UnknownValue { found: found.0.into() }).at("vertexFormat")?;
+        let unknown = |found: vk::Format| match found {
+            vk::Format::UNDEFINED => Reason::UnknownValue { found: found.0.into() },
+            _ => Reason::Unsupported { what: "vertices of that format" },
+        };
+        let format = format.map_err(unknown).at("vertexFormat")?;
         let index_type = checked_index_type(data.index_type).at("indexType")?;
         let transform = self.transform(data, range, timeline).at("transformData")?;
         let corners = u64::from(range.primitive_count) * 3;

@@ -106,9 +106,7 @@ impl World {
     pub(crate) fn host_memory_of(&mut self, name: &str, bytes: &[u8], node: &Node) -> Result<(), Mistake> {
         let size = bytes.len() as u64;
         self.spend(Cost::Bytes, size, node)?;
-        let address =
-            self.device.allocate_host(size).ok_or_else(|| node.mistake("there is not so much host memory"))?;
-        self.device.write_host(address, bytes).map_err(|error| node.mistake(error.to_string()))?;
+        let address = self.new_host_memory(bytes).ok_or_else(|| node.mistake("there is not so much host memory"))?;
         let place = Some(Range { address: address.0, size, host: true });
         self.objects.insert(Object { name: name.to_owned(), handles: Vec::new(), place });
         Ok(())

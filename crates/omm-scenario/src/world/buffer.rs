@@ -108,7 +108,7 @@ impl World {
         let size = (bytes.len() as u64).max(1).next_multiple_of(256);
         let request = BufferRequest::new(name, size, INPUT);
         let address = vk::DeviceAddress(self.make_buffer(&request, node)?.address);
-        let written = self.device.write(address, bytes);
+        let written = self.write_mapped(address, bytes);
         written.map_err(|error| node.mistake(format!("this cannot be uploaded: {error}")))?;
         Ok(address)
     }

@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use omm_model::triangle::MicromapTriangle;
 use omm_model::usage::MicromapUsage;
 
-use super::codec;
 use super::section::{SectionKind, checksum};
 use super::{MAGIC, START_SIZE, VERSION};
+use crate::codec;
 
 /// Bytes of a section without its contents.
 const HEAD_SIZE: usize = 20;

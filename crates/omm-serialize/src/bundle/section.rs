@@ -1,7 +1,7 @@
 //! Sections: a kind, the micromap that they belong to, a checksum and bytes.
 
-use super::codec::{self, Input};
-use super::{Checksums, MAGIC, VERSION};
+use super::{Checksums, MAGIC};
+use crate::codec::{self, Input};
 use crate::{ReadError, ReadErrorKind};
 
 /// Where the number of sections stands.
@@ -96,16 +96,7 @@ pub(super) fn checksum(kind: u32, micromap: u32, contents: &[u8]) -> u32 {
 
 /// Reads magic, version and the number of sections.
 pub(super) fn read_start(input: &mut Input<'_>) -> Result<u64, ReadError> {
-    let found = input.magic()?;
-    if found != MAGIC {
-        let kind = ReadErrorKind::Magic { found, required: MAGIC };
-        return Err(ReadError { field: "magic".into(), offset: 0, kind });
-    }
-    let version = input.u32("version")?;
-    if version != VERSION {
-        let kind = ReadErrorKind::Unknown { found: version.into(), required: "1, the only version this program reads" };
-        return Err(ReadError { field: "version".into(), offset: 8, kind });
-    }
+    input.start(MAGIC)?;
     input.u64("sections")
 }
 

@@ -123,7 +123,7 @@ fn partly_nan(components: impl IntoIterator<Item = f32>) -> Option<&'static str>
 }
 
 /// An address some bytes behind another.
-pub(super) fn offset_by(address: vk::DeviceOrHostAddress, bytes: u64) -> Option<vk::DeviceOrHostAddress> {
+pub(crate) fn offset_by(address: vk::DeviceOrHostAddress, bytes: u64) -> Option<vk::DeviceOrHostAddress> {
     Some(match address {
         vk::DeviceOrHostAddress::DeviceAddress(address) => address.checked_add(bytes)?.into(),
         vk::DeviceOrHostAddress::HostAddress(address) => vk::HostAddress(address.0.checked_add(bytes)?).into(),

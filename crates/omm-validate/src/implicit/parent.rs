@@ -37,7 +37,8 @@ pub(super) fn check_command(row: &Command, call: &Call, command: &At<'_>, state:
 
 fn check_one(rule: RuleId, at: &At<'_>, object: Object, call: &Call, state: &State, report: &mut Report) {
     let (Some(found), Some(required)) = (state.parent(object), call.device()) else { return };
-    if !state.liveness((vk::Device::OBJECT_TYPE, required.0)).is_invalid() {
+    // A device that is none is another rule's business.
+    if !required.is_null() && !state.liveness((vk::Device::OBJECT_TYPE, required.0)).is_invalid() {
         compare(rule, at, found, required, report);
     }
 }

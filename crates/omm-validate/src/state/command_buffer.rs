@@ -1,12 +1,15 @@
 //! What command buffers hold: the effects that their commands will have.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use omm_model::call::{Call, RenderingInfo};
 use omm_model::vk;
 
 use super::{Built, State};
+use crate::context::command_at;
+use crate::location::Object;
+use crate::own::named::each_object;
 
 /// Where a command buffer is in its life.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,7 +22,7 @@ pub enum RecordingState {
     Recording,
     /// Ended; can be submitted.
     Executable,
-    /// Submitted, and allowed to be only once.
+    /// Submitted, and allowed to be only once; or something that it names is gone.
     Invalid,
 }
 
@@ -59,10 +62,12 @@ pub struct CommandBufferState {
     /// Whether the last render pass instance was suspended and none has resumed it.
     pub is_suspended: bool,
     /// The commands, in order, that do something when they execute.
-    calls: Arc<Vec<Call>>,
-    effects: Vec<Effect>,
+    pub(super) calls: Arc<Vec<(Call, u64)>>,
+    /// The objects that they name.
+    names: Arc<BTreeSet<Object>>,
+    effects: Arc<Vec<Effect>>,
     /// The last effect on each acceleration structure.
-    last: BTreeMap<vk::AccelerationStructure, usize>,
+    last: Arc<BTreeMap<vk::AccelerationStructure, usize>>,
 }
 
 /// What a command will do to an acceleration structure.
@@ -112,9 +117,10 @@ impl CommandBufferState {
 
     /// Forgets what is recorded.
     pub(super) fn reset(&mut self) {
-        self.effects.clear();
-        self.last.clear();
+        self.effects = Arc::default();
+        self.last = Arc::default();
         self.calls = Arc::default();
+        self.names = Arc::default();
         self.recording = RecordingState::Initial;
         (self.in_render_pass, self.is_suspended) = (false, false);
     }
@@ -137,12 +143,31 @@ impl CommandBufferState {
         self.in_render_pass = false;
     }
 
-    pub(super) fn record_call(&mut self, call: &Call) {
-        Arc::make_mut(&mut self.calls).push(call.clone());
+    /// Keeps a call and the time at which it was recorded.
+    pub(super) fn record_call(&mut self, call: &Call, serial: u64) {
+        let own = call.recorded_into().map(|it| (vk::CommandBuffer::OBJECT_TYPE, it.0));
+        let names = Arc::make_mut(&mut self.names);
+        each_object(call, &command_at(call), &mut |_, object, _| {
+            if Some(object) != own {
+                names.insert(object);
+            }
+        });
+        Arc::make_mut(&mut self.calls).push((call.clone(), serial));
+    }
+
+    /// Whether a command recorded so far names an object.
+    pub(super) fn names(&self, object: Object) -> bool {
+        self.names.contains(&object)
+    }
+
+    /// Forgets what the commands will have done, where they are carried out one by one.
+    pub(super) fn forget_effects(&mut self) {
+        self.effects = Arc::default();
+        self.last = Arc::default();
     }
 
     /// The commands, in order, that do something when they execute.
-    pub(super) fn calls(&self) -> Arc<Vec<Call>> {
+    pub(super) fn calls(&self) -> Arc<Vec<(Call, u64)>> {
         Arc::clone(&self.calls)
     }
 
@@ -150,7 +175,7 @@ impl CommandBufferState {
     pub(crate) fn serializes_micromap_to(&self, address: vk::DeviceOrHostAddress) -> bool {
         let serializes =
             |call: &Call| matches!(call, Call::CmdCopyMicromapToMemory { info, .. } if info.dst == address);
-        self.calls.iter().any(serializes)
+        self.calls.iter().any(|(call, _)| serializes(call))
     }
 
     pub(super) fn record_build(&mut self, dst: vk::AccelerationStructure, built: Built) {
@@ -172,8 +197,8 @@ impl CommandBufferState {
     }
 
     fn record(&mut self, effect: Effect) {
-        self.last.insert(effect.dst(), self.effects.len());
-        self.effects.push(effect);
+        Arc::make_mut(&mut self.last).insert(effect.dst(), self.effects.len());
+        Arc::make_mut(&mut self.effects).push(effect);
     }
 
     /// What the commands so far make of `handle`.

@@ -13,6 +13,8 @@ use super::State;
 pub struct DeferredOperationState {
     /// The command that was deferred on it and is not complete.
     pub pending: Option<Arc<Call>>,
+    /// When it was deferred.
+    pub(super) deferred_at: u64,
 }
 
 impl State {
@@ -26,7 +28,8 @@ impl State {
     pub(super) fn host_command(&mut self, call: &Call, output: &Output) {
         match (call.deferred_operation(), output) {
             (Some(operation), Output::Result(vk::Result::OPERATION_DEFERRED)) => {
-                self.operations.entry(operation).or_default().pending = Some(Arc::new(call.clone()));
+                let pending = Some(Arc::new(call.clone()));
+                self.operations.insert(operation, DeferredOperationState { pending, deferred_at: self.serial });
             }
             _ => self.execute(call),
         }

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use omm_model::call::{Call, Timeline};
 use omm_model::vk;
 
-use super::{Attachment, Built, CommandBufferState, Contents, Deserialized, MicromapBuilt, MicromapContents, State};
+use super::{
+    Age, Attachment, Built, CommandBufferState, Contents, Deserialized, MicromapBuilt, MicromapContents, State,
+};
 
 /// Where serialized data lies: whether in host memory, and at which address.
 pub(super) type Place = (bool, u64);
@@ -30,12 +32,47 @@ impl State {
                 let has_work =
                     |it: &vk::CommandBuffer| self.command_buffer(*it).is_some_and(|it| !it.calls().is_empty());
                 if command_buffers.iter().any(has_work) {
-                    self.clone().replay(command_buffers, visit);
+                    self.clone().replay(command_buffers, &mut |state, call, _| visit(state, call));
                 }
             }
             _ if call.timeline() == Timeline::Host => visit(self, call),
             _ => {}
         }
+    }
+
+    /// Visits what [`each_executed`](Self::each_executed) does and a deferred command that is joined, with how long each was known.
+    pub(crate) fn each_execution(&self, call: &Call, visit: &mut dyn FnMut(&Self, &Call, Age)) {
+        match call {
+            Call::QueueSubmit { command_buffers, .. } => {
+                let mut state = self.clone();
+                state.just_serialized.clear();
+                state.command_buffers.values_mut().for_each(CommandBufferState::forget_effects);
+                state.replay(command_buffers, &mut |state, call, serial| visit(state, call, state.age(serial)));
+            }
+            Call::DeferredOperationJoin { operation, .. } => {
+                if let Some(operation) = self.deferred_operation(*operation)
+                    && let Some(pending) = &operation.pending
+                {
+                    // It does not stand in its own way.
+                    let mut state = self.clone();
+                    state.operations.clear();
+                    visit(&state, pending, self.age(operation.deferred_at));
+                }
+            }
+            _ if call.timeline() == Timeline::Host => visit(self, call, Age::New),
+            _ => {}
+        }
+    }
+
+    /// Whether data was serialized to where an address points, by the submission that is being looked at, so that it is not in
+    /// memory yet.
+    pub(crate) fn was_just_serialized(&self, address: vk::DeviceOrHostAddress) -> bool {
+        self.just_serialized.contains(&place(address))
+    }
+
+    /// Whether the submission that is being looked at has written anything that is not in memory yet.
+    pub(crate) fn was_just_written(&self) -> bool {
+        !self.just_serialized.is_empty()
     }
 
     /// What is known to lie where an address points: the contents of the acceleration structure that was serialized there.
@@ -60,15 +97,15 @@ impl State {
     }
 
     /// Carries out what command buffers hold.
-    pub(super) fn replay(&mut self, command_buffers: &[vk::CommandBuffer], visit: &mut dyn FnMut(&Self, &Call)) {
+    pub(super) fn replay(&mut self, command_buffers: &[vk::CommandBuffer], visit: &mut dyn FnMut(&Self, &Call, u64)) {
         for command_buffer in command_buffers {
             self.replay_one(*command_buffer, true, visit);
         }
     }
 
-    fn replay_one(&mut self, handle: vk::CommandBuffer, primary: bool, visit: &mut dyn FnMut(&Self, &Call)) {
+    fn replay_one(&mut self, handle: vk::CommandBuffer, primary: bool, visit: &mut dyn FnMut(&Self, &Call, u64)) {
         let Some(calls) = self.command_buffer(handle).map(CommandBufferState::calls) else { return };
-        for call in calls.iter() {
+        for (call, serial) in calls.iter() {
             match call {
                 // Secondary command buffers execute no others; what claims to is passed over, so that this ends.
                 Call::CmdExecuteCommands { command_buffers, .. } => {
@@ -77,7 +114,7 @@ impl State {
                     }
                 }
                 _ => {
-                    visit(self, call);
+                    visit(self, call, *serial);
                     self.execute(call);
                 }
             }
@@ -98,6 +135,9 @@ impl State {
                 // A source of which nothing is known is taken to hold something.
                 let contents = source.map_or_else(|| Some(Contents::default()), |source| source.contents.clone());
                 self.fill(info.dst, contents);
+                if info.mode == vk::CopyAccelerationStructureMode::CLONE {
+                    self.same_sizes(info.src, info.dst);
+                }
             }
             Call::CmdCopyAccelerationStructureToMemory { info, .. }
             | Call::CopyAccelerationStructureToMemory { info, .. } => {
@@ -129,6 +169,9 @@ impl State {
                 let contents =
                     source.map_or_else(|| Some(MicromapContents::default()), |source| source.contents.clone());
                 self.fill_micromap(info.dst, contents);
+                if info.mode == vk::CopyMicromapMode::CLONE {
+                    self.same_micromap_sizes(info.src, info.dst);
+                }
             }
             Call::CmdCopyMicromapToMemory { info, .. } | Call::CopyMicromapToMemory { info, .. } => {
                 let contents = self.micromap(info.src).and_then(|source| source.contents.clone());
@@ -188,7 +231,42 @@ impl State {
         self.contents_count = self.contents_count.wrapping_add(1);
         let number = self.contents_count;
         if let Some(structure) = self.acceleration_structures.get_mut(&handle) {
-            structure.contents = contents.map(|contents| Contents { number, serialization_size: None, ..contents });
+            structure.contents = contents.map(|contents| Contents {
+                number,
+                serialization_size: None,
+                compacted_size: None,
+                ..contents
+            });
+            let spans: Vec<_> = self.structure_memory(handle).collect();
+            self.overwritten(&spans, Some((vk::AccelerationStructure::OBJECT_TYPE, handle.0)));
+        }
+    }
+
+    /// A clone is as large as its source in every respect.
+    fn same_sizes(&mut self, src: vk::AccelerationStructure, dst: vk::AccelerationStructure) {
+        let source = self.acceleration_structure(src).and_then(|source| source.contents.as_ref());
+        let Some((serialization_size, compacted_size)) =
+            source.map(|contents| (contents.serialization_size, contents.compacted_size))
+        else {
+            return;
+        };
+        let destination =
+            self.acceleration_structures.get_mut(&dst).and_then(|destination| destination.contents.as_mut());
+        if let Some(contents) = destination {
+            (contents.serialization_size, contents.compacted_size) = (serialization_size, compacted_size);
+        }
+    }
+
+    /// So is that of a micromap object.
+    fn same_micromap_sizes(&mut self, src: vk::Micromap, dst: vk::Micromap) {
+        let source = self.micromap(src).and_then(|source| source.contents.as_ref());
+        let Some((serialization_size, compacted_size)) =
+            source.map(|contents| (contents.serialization_size, contents.compacted_size))
+        else {
+            return;
+        };
+        if let Some(contents) = self.micromaps.get_mut(&dst).and_then(|destination| destination.contents.as_mut()) {
+            (contents.serialization_size, contents.compacted_size) = (serialization_size, compacted_size);
         }
     }
 
@@ -196,12 +274,29 @@ impl State {
         self.contents_count = self.contents_count.wrapping_add(1);
         let number = self.contents_count;
         if let Some(micromap) = self.micromaps.get_mut(&handle) {
-            micromap.contents =
-                contents.map(|contents| MicromapContents { number, serialization_size: None, ..contents });
+            micromap.contents = contents.map(|contents| MicromapContents {
+                number,
+                serialization_size: None,
+                compacted_size: None,
+                ..contents
+            });
+            let spans: Vec<_> = self.micromap_memory(handle).collect();
+            self.overwritten(&spans, Some((vk::Micromap::OBJECT_TYPE, handle.0)));
         }
     }
 
     fn serialize(&mut self, address: vk::DeviceOrHostAddress, data: Option<Serialized>) {
+        let size = match &data {
+            Some(Serialized::Structure(_, contents)) => contents.serialization_size,
+            Some(Serialized::Micromap(_, contents)) => contents.serialization_size,
+            None => None,
+        };
+        if let Some(start) = address.device_address() {
+            let size = size.or(self.bytes_from(start)).unwrap_or_default();
+            let spans: Vec<_> = self.memory_behind(vk::DeviceAddressRange { address: start, size }).collect();
+            self.overwritten(&spans, None);
+        }
+        self.just_serialized.insert(place(address));
         match data {
             Some(data) => self.serialized.insert(place(address), data),
             None => self.serialized.remove(&place(address)),

@@ -1,5 +1,7 @@
 //! Buffers and the memory behind them.
 
+use std::sync::Arc;
+
 use omm_model::vk;
 
 use super::{Liveness, State, Storage};
@@ -103,11 +105,11 @@ impl BufferState {
 }
 
 impl State {
-    /// Whether the address of any buffer is known. If not, calls that ask for addresses are probably not shown to the validator,
+    /// Whether the address of any buffer was ever told. If not, calls that ask for addresses are probably not shown to the validator,
     /// and nothing can be said about an address.
     #[must_use]
     pub fn knows_addresses(&self) -> bool {
-        !self.addresses.is_empty()
+        self.sees_addresses
     }
 
     /// The buffers that an address lies in, each with the offset of the address and the bytes from there on. Only buffers whose
@@ -184,27 +186,36 @@ impl State {
         self.destroy_buffer(buffer);
         let vk::BufferCreateInfo { size, usage, flags, .. } = *create_info;
         let new = BufferState { size, usage, flags, memory: None, bindings: Vec::new(), address: None };
-        self.buffers.insert(buffer, new);
+        Arc::make_mut(&mut self.buffers).insert(buffer, new);
     }
 
     pub(super) fn destroy_buffer(&mut self, buffer: vk::Buffer) {
-        if let Some(BufferState { address: Some(address), .. }) = self.buffers.remove(&buffer) {
-            self.addresses.remove(&(address, buffer));
+        if let Some(BufferState { address: Some(address), .. }) = Arc::make_mut(&mut self.buffers).remove(&buffer) {
+            Arc::make_mut(&mut self.addresses).remove(&(address, buffer));
         }
     }
 
     pub(super) fn set_buffer_address(&mut self, buffer: vk::Buffer, address: vk::DeviceAddress) {
-        let Some(state) = self.buffers.get_mut(&buffer) else { return };
+        self.sees_addresses = true;
+        let Some(state) = Arc::make_mut(&mut self.buffers).get_mut(&buffer) else { return };
         if let Some(old) = state.address.replace(address) {
-            self.addresses.remove(&(old, buffer));
+            Arc::make_mut(&mut self.addresses).remove(&(old, buffer));
         }
-        self.addresses.insert((address, buffer), state.size);
+        Arc::make_mut(&mut self.addresses).insert((address, buffer), state.size);
         self.largest_buffer = self.largest_buffer.max(state.size);
     }
 
+    /// What lay in a buffer lies elsewhere, or nowhere, once it is bound anew.
+    fn rebound(&mut self, buffer: vk::Buffer) {
+        let spans: Vec<_> = self.buffer_memory(buffer, 0, u64::MAX).collect();
+        self.overwritten(&spans, None);
+    }
+
     pub(super) fn bind_sparse(&mut self, infos: &[vk::SparseBufferMemoryBindInfo]) {
+        self.sees_bindings = true;
         for info in infos {
-            let Some(buffer) = self.buffers.get_mut(&info.buffer) else { continue };
+            self.rebound(info.buffer);
+            let Some(buffer) = Arc::make_mut(&mut self.buffers).get_mut(&info.buffer) else { continue };
             for bind in &info.binds {
                 let vk::SparseMemoryBind { resource_offset, size, memory, memory_offset, .. } = *bind;
                 buffer.bind(Binding { offset: resource_offset, size, memory, memory_offset });
@@ -229,6 +240,6 @@ impl State {
         };
         let property_flags = self.profile.memory_type(info.memory_type_index).map(|ty| ty.property_flags);
         let new = MemoryState { size: info.allocation_size, property_flags, instances };
-        self.memories.insert(memory, new);
+        Arc::make_mut(&mut self.memories).insert(memory, new);
     }
 }

@@ -55,6 +55,8 @@ pub struct MicromapContents {
     pub deserialized: Option<Deserialized>,
     /// Bytes that they take when serialized, once the program was told.
     pub serialization_size: Option<u64>,
+    /// Bytes that they take when compacted, once the program was told.
+    pub compacted_size: Option<u64>,
     /// Differs for all contents.
     pub(super) number: u64,
 }
@@ -127,9 +129,22 @@ impl State {
         info: &vk::MicromapBuildInfo,
         sizes: &vk::MicromapBuildSizesInfo,
     ) {
-        let asked = self.micromap_sizes.0.entry(key(info)).or_default();
+        let asked = Arc::make_mut(&mut self.micromap_sizes).0.entry(key(info)).or_default();
         asked.retain(|(old, built, _)| *old != ty || !is_build_of(built, info));
         asked.push((ty, MicromapBuilt::new(info), sizes.clone()));
+    }
+
+    /// The micromap object whose first byte has that address, if addresses of buffers are known.
+    #[must_use]
+    pub fn micromap_at(&self, address: vk::DeviceAddress) -> Option<vk::Micromap> {
+        let mut micromaps = self.micromaps.keys().copied();
+        micromaps.find(|micromap| self.micromap_address(*micromap) == Some(address.0))
+    }
+
+    /// The address of a micromap object's first byte, if that of its buffer is known.
+    pub(crate) fn micromap_address(&self, micromap: vk::Micromap) -> Option<u64> {
+        let micromap = self.micromap(micromap)?;
+        Some(self.buffer(micromap.buffer)?.address?.checked_add(micromap.offset)?.0)
     }
 
     /// The memory that a micromap object lies in, as far as it is known.

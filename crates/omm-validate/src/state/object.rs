@@ -1,5 +1,7 @@
 //! Which objects live, and whose they are.
 
+use std::sync::Arc;
+
 use omm_model::vk;
 
 use super::State;
@@ -33,6 +35,12 @@ pub(super) struct ObjectState {
     destroyed: bool,
 }
 
+impl ObjectState {
+    pub(super) const fn device(&self) -> Option<vk::Device> {
+        self.device
+    }
+}
+
 impl State {
     /// Whether a handle of that kind names an object.
     #[must_use]
@@ -53,12 +61,21 @@ impl State {
 
     pub(super) fn created(&mut self, object: Object, device: Option<vk::Device>) {
         self.seen.insert(object.0);
-        self.objects.insert(object, ObjectState { device, destroyed: false });
+        Arc::make_mut(&mut self.objects).insert(object, ObjectState { device, destroyed: false });
     }
 
     pub(super) fn destroyed(&mut self, object: Object) {
-        if let Some(state) = self.objects.get_mut(&object) {
+        if let Some(state) = Arc::make_mut(&mut self.objects).get_mut(&object) {
             state.destroyed = true;
+        }
+        self.invalidate(object);
+    }
+
+    /// A device that a call names, though its creation was not seen, lives: also once another one is created.
+    pub(super) fn adopt_device(&mut self, device: vk::Device) {
+        let object = (vk::Device::OBJECT_TYPE, device.0);
+        if !device.is_null() && self.liveness(object) == Liveness::Unknown {
+            Arc::make_mut(&mut self.objects).insert(object, ObjectState { device: None, destroyed: false });
         }
     }
 }

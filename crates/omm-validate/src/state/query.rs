@@ -139,20 +139,22 @@ impl State {
 
     /// The program was told a size of an object.
     pub(super) fn learn_size(&mut self, object: Object, query_type: vk::QueryType, value: u64) {
-        match (object.0, query_type) {
-            (vk::ObjectType::MICROMAP, vk::QueryType::MICROMAP_SERIALIZATION_SIZE) => {
-                let micromap = self.micromaps.get_mut(&vk::Micromap(object.1));
-                if let Some(contents) = micromap.and_then(|micromap| micromap.contents.as_mut()) {
-                    contents.serialization_size = Some(value);
-                }
+        let micromap = self.micromaps.get_mut(&vk::Micromap(object.1)).filter(|_| object.0 == vk::ObjectType::MICROMAP);
+        if let Some(contents) = micromap.and_then(|micromap| micromap.contents.as_mut()) {
+            match query_type {
+                vk::QueryType::MICROMAP_SERIALIZATION_SIZE => contents.serialization_size = Some(value),
+                vk::QueryType::MICROMAP_COMPACTED_SIZE => contents.compacted_size = Some(value),
+                _ => {}
             }
-            (vk::ObjectType::ACCELERATION_STRUCTURE, vk::QueryType::ACCELERATION_STRUCTURE_SERIALIZATION_SIZE) => {
-                let structure = self.acceleration_structures.get_mut(&vk::AccelerationStructure(object.1));
-                if let Some(contents) = structure.and_then(|structure| structure.contents.as_mut()) {
-                    contents.serialization_size = Some(value);
-                }
+        }
+        let structure = self.acceleration_structures.get_mut(&vk::AccelerationStructure(object.1));
+        let structure = structure.filter(|_| object.0 == vk::ObjectType::ACCELERATION_STRUCTURE);
+        if let Some(contents) = structure.and_then(|structure| structure.contents.as_mut()) {
+            match query_type {
+                vk::QueryType::ACCELERATION_STRUCTURE_SERIALIZATION_SIZE => contents.serialization_size = Some(value),
+                vk::QueryType::ACCELERATION_STRUCTURE_COMPACTED_SIZE => contents.compacted_size = Some(value),
+                _ => {}
             }
-            _ => {}
         }
     }
 

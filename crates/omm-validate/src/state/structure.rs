@@ -68,6 +68,8 @@ pub struct Contents {
     pub updated: bool,
     /// Bytes that they take when serialized, once the program was told.
     pub serialization_size: Option<u64>,
+    /// Bytes that they take when compacted, once the program was told.
+    pub compacted_size: Option<u64>,
     /// Differs for all contents.
     pub(super) number: u64,
 }
@@ -133,6 +135,8 @@ pub struct Built {
 pub struct BuiltGeometry {
     /// Its type.
     pub ty: vk::GeometryType,
+    /// Its flags.
+    pub flags: vk::GeometryFlags,
     /// The micromap attached to it.
     pub attachment: Attachment,
 }
@@ -141,7 +145,8 @@ impl Built {
     pub(super) fn new(info: &vk::BuildGeometryInfo, ranges: &[vk::BuildRangeInfo]) -> Self {
         let usages =
             info.geometries_iter().filter_map(vk::Geometry::micromap_data).flat_map(vk::GeometryMicromapData::usages);
-        let geometry = |it: &vk::Geometry| BuiltGeometry { ty: it.geometry_type, attachment: Attachment::of(it) };
+        let geometry =
+            |it: &vk::Geometry| BuiltGeometry { ty: it.geometry_type, flags: it.flags, attachment: Attachment::of(it) };
         Self {
             ty: info.ty,
             flags: info.flags,

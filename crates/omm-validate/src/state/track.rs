@@ -1,5 +1,7 @@
 //! How calls change the state.
 
+use std::sync::Arc;
+
 use omm_model::call::{Call, Output};
 use omm_model::vk;
 
@@ -18,6 +20,14 @@ macro_rules! object {
 impl State {
     /// Records what `call` did. A command that returned an error did nothing, but for what it tells of an earlier one.
     pub(crate) fn track(&mut self, call: &Call, output: &Output) {
+        self.serial = self.serial.wrapping_add(1);
+        if super::change::changes(call) {
+            self.changed_at = self.serial;
+        }
+        if let Some(device) = call.device() {
+            self.adopt_device(device);
+        }
+        self.just_serialized.clear();
         if let Call::GetDeferredOperationResult { operation, .. } | Call::DeferredOperationJoin { operation, .. } = call
         {
             self.deferred_result(*operation, output);
@@ -31,7 +41,8 @@ impl State {
         self.track_answer(call, output);
         match call {
             Call::BindBufferMemory { buffer, memory, memory_offset, .. } => {
-                if let Some(state) = self.buffers.get_mut(buffer) {
+                self.sees_bindings = true;
+                if let Some(state) = Arc::make_mut(&mut self.buffers).get_mut(buffer) {
                     state.memory = Some((*memory, *memory_offset));
                 }
             }
@@ -55,10 +66,7 @@ impl State {
     fn track_objects(&mut self, call: &Call) {
         match call {
             Call::CreateDevice { create_info, device, .. } => self.create_device(*device, create_info),
-            Call::DestroyDevice { device } => {
-                self.devices.remove(device);
-                self.destroyed(object!(Device, device));
-            }
+            Call::DestroyDevice { device } => self.destroy_device(*device),
             Call::GetDeviceQueue { device, queue_family_index, queue, .. } => {
                 self.queues.insert(*queue, (*device, *queue_family_index));
                 self.created(object!(Queue, queue), Some(*device));
@@ -76,7 +84,7 @@ impl State {
                 self.created(object!(DeviceMemory, memory), Some(*device));
             }
             Call::FreeMemory { memory, .. } => {
-                self.memories.remove(memory);
+                Arc::make_mut(&mut self.memories).remove(memory);
                 self.destroyed(object!(DeviceMemory, memory));
             }
             Call::CreateQueryPool { device, create_info, query_pool } => {
@@ -167,6 +175,14 @@ impl State {
                     self.destroyed(object!(CommandBuffer, handle));
                 }
             }
+            Call::CreateRayTracingPipelines { device, pipelines, .. } => {
+                pipelines.iter().for_each(|it| self.created(object!(Pipeline, it), Some(*device)));
+            }
+            Call::DestroyPipeline { pipeline, .. } => self.destroyed(object!(Pipeline, pipeline)),
+            Call::CreateShaders { device, shaders, .. } => {
+                shaders.iter().for_each(|it| self.created(object!(Shader, it), Some(*device)));
+            }
+            Call::DestroyShader { shader, .. } => self.destroyed(object!(Shader, shader)),
             _ => {}
         }
     }
@@ -176,19 +192,18 @@ impl State {
         match call {
             Call::BeginCommandBuffer { command_buffer, begin_info } => {
                 self.recorded_into(*command_buffer).begin(begin_info.flags);
+                self.invalidate(object!(CommandBuffer, command_buffer));
             }
             Call::EndCommandBuffer { command_buffer } => {
                 self.recorded_into(*command_buffer).recording = RecordingState::Executable;
             }
-            Call::ResetCommandBuffer { command_buffer, .. } => self.recorded_into(*command_buffer).reset(),
+            Call::ResetCommandBuffer { command_buffer, .. } => {
+                self.recorded_into(*command_buffer).reset();
+                self.invalidate(object!(CommandBuffer, command_buffer));
+            }
             Call::QueueSubmit { command_buffers, .. } => {
-                self.replay(command_buffers, &mut |_, _| {});
-                for command_buffer in command_buffers {
-                    let Some(state) = self.command_buffers.get_mut(command_buffer) else { continue };
-                    if state.usage.contains(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT) {
-                        state.recording = RecordingState::Invalid;
-                    }
-                }
+                self.replay(command_buffers, &mut |_, _, _| {});
+                command_buffers.iter().for_each(|it| self.executed(*it));
             }
             Call::CmdBeginRendering { command_buffer, rendering_info } => {
                 self.recorded_into(*command_buffer).begin_rendering(rendering_info);
@@ -196,8 +211,9 @@ impl State {
             Call::CmdEndRendering { command_buffer } => self.recorded_into(*command_buffer).end_rendering(),
             _ => {
                 let Some(command_buffer) = call.recorded_into() else { return };
+                let serial = self.serial;
                 let state = self.recorded_into(command_buffer);
-                state.record_call(call);
+                state.record_call(call, serial);
                 record_effects(state, call);
             }
         }
@@ -216,6 +232,13 @@ impl State {
             }
             (Call::GetMicromapBuildSizes { build_type, build_info, .. }, Output::MicromapBuildSizes(sizes)) => {
                 self.learn_build_sizes(*build_type, build_info, sizes);
+            }
+            (
+                Call::GetAccelerationStructureBuildSizes { build_type, build_info, max_primitive_counts, .. },
+                Output::BuildSizes(sizes),
+            ) => {
+                let counts = max_primitive_counts.as_deref().unwrap_or_default();
+                self.learn_structure_sizes(*build_type, build_info, counts, sizes);
             }
             (Call::GetQueryPoolResults { query_pool, first_query, flags, .. }, Output::QueryResults(values)) => {
                 self.read_queries(*query_pool, *first_query, *flags, values);

@@ -33,7 +33,8 @@ fn dst_micromap_overlap_11649(
     let dst = || dst_memory(build.info, timeline, state);
     let others = build.earlier.iter().map(|other| dst_memory(other, timeline, state));
     let rule = build.twin(RuleId::DstMicromapOverlap11649, RuleId::HostDstMicromapOverlap11667);
-    overlap(build, ("dstMicromap", dst), ("dstMicromap", others), rule, report);
+    let start = state.micromap_address(build.info.dst_micromap);
+    overlap(build, ("dstMicromap", start, dst), ("dstMicromap", others), rule, report);
 }
 
 /// No build of a command writes scratch memory of any of them.
@@ -43,7 +44,8 @@ fn dst_micromap_scratch_overlap_11650(build: &MicromapBuildContext<'_>, state: &
     let dst = || dst_memory(build.info, Timeline::Device, state);
     let others = build.infos.iter().map(|other| scratch_memory(other, state));
     let rule = RuleId::DstMicromapScratchOverlap11650;
-    overlap(build, ("dstMicromap", dst), ("scratchData", others), rule, report);
+    let start = state.micromap_address(build.info.dst_micromap);
+    overlap(build, ("dstMicromap", start, dst), ("scratchData", others), rule, report);
 }
 
 /// Two builds of a command have two pieces of scratch memory.
@@ -52,7 +54,8 @@ fn dst_micromap_scratch_overlap_11650(build: &MicromapBuildContext<'_>, state: &
 fn scratch_overlap_11651(build: &MicromapBuildContext<'_>, state: &State, report: &mut Report) {
     let scratch = || scratch_memory(build.info, state);
     let others = build.earlier.iter().map(|other| scratch_memory(other, state));
-    overlap(build, ("scratchData", scratch), ("scratchData", others), RuleId::ScratchOverlap11651, report);
+    let start = Some(build.info.scratch_data.raw());
+    overlap(build, ("scratchData", start, scratch), ("scratchData", others), RuleId::ScratchOverlap11651, report);
 }
 
 /// The same on the host.
@@ -61,20 +64,23 @@ fn scratch_overlap_11651(build: &MicromapBuildContext<'_>, state: &State, report
 fn host_scratch_overlap_11669(build: &MicromapBuildContext<'_>, state: &State, report: &mut Report) {
     let scratch = || host_scratch_memory(build.info, state);
     let others = build.earlier.iter().map(|other| host_scratch_memory(other, state));
-    overlap(build, ("scratchData", scratch), ("scratchData", others), RuleId::HostScratchOverlap11669, report);
+    let start = Some(build.info.scratch_data.raw());
+    overlap(build, ("scratchData", start, scratch), ("scratchData", others), RuleId::HostScratchOverlap11669, report);
 }
 
 /// Reports the first of `others`, the memory of the command's builds in order, that overlaps what the build has.
 fn overlap<Spans: Iterator<Item = MemorySpan>, Others: Iterator<Item = MemorySpan>>(
     build: &MicromapBuildContext<'_>,
-    (name, memory): (&'static str, impl Fn() -> Spans),
+    (name, start, memory): (&'static str, Option<u64>, impl Fn() -> Spans),
     (other_name, others): (&'static str, impl Iterator<Item = Others>),
     rule: RuleId,
     report: &mut Report,
 ) {
     for (index, mut other) in (0..).zip(others) {
         let shared = other.find_map(|other| memory().find(|span| span.overlaps(&other)));
-        if let Some(MemorySpan { offset: start, size, .. }) = shared {
+        if let Some(MemorySpan { offset, size, .. }) = shared {
+            // Where no address was asked for, the place in memory is all that is known.
+            let start = start.unwrap_or(offset);
             let kind = ViolationKind::Overlap { start, size, other: ["pInfos", other_name], index };
             report.push(rule, &build.at.field(name), kind);
             return;

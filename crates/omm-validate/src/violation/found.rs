@@ -77,6 +77,7 @@ impl ViolationKind {
             Self::NotRecording { found } => format!("a command buffer in the {found} state"),
             Self::InsideRenderPass => "a render pass instance".to_owned(),
             Self::SuspendedRenderPass => "a suspended render pass instance".to_owned(),
+            Self::Own(finding) => finding.found(),
             Self::NotSpecialIndex { found, .. } => found.to_string(),
         }
     }

@@ -344,6 +344,8 @@ pub enum ViolationKind {
     InsideRenderPass,
     /// A command stands between the two parts of a suspended render pass instance.
     SuspendedRenderPass,
+    /// What only a rule of our own finds.
+    Own(crate::own::finding::OwnFinding),
     /// An index has to be special and is not.
     NotSpecialIndex {
         /// The index as stored.

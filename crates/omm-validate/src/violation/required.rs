@@ -84,6 +84,7 @@ impl ViolationKind {
             Self::WrongParent { required, .. } => format!("one of VkDevice {required:#x}"),
             Self::NotRecording { .. } => "one that is being recorded".to_owned(),
             Self::InsideRenderPass | Self::SuspendedRenderPass => "none".to_owned(),
+            Self::Own(finding) => finding.required(),
             Self::NotSpecialIndex { lowest, .. } => {
                 format!("a special index, {lowest} to {}", lowest.saturating_add(3))
             }

@@ -19,6 +19,7 @@ fn host_micromap_build() -> vk::MicromapBuildInfo {
 fn bottom_level(attached: vk::ChainStructure) -> Call {
     let triangles = vk::GeometryTrianglesData {
         next: vec![attached],
+        vertex_format: vk::Format::R32G32B32_SFLOAT,
         vertex_stride: 12,
         max_vertex: 5,
         index_type: vk::IndexType::NONE,

@@ -131,6 +131,7 @@ fn record(world: &mut World) {
     let triangles = vk::GeometryTrianglesData {
         next: vec![vk::ChainStructure::TrianglesOpacityMicromapExt(attached)],
         vertex_data: vk::DeviceAddress(address_of(INPUT) + 0x400).into(),
+        vertex_format: vk::Format::R32G32B32_SFLOAT,
         vertex_stride: 12,
         max_vertex: 11,
         index_type: vk::IndexType::NONE,
@@ -312,12 +313,15 @@ pub(crate) fn run(cases: &[BuildCase]) {
         let mut world = program();
         (case.change)(&mut world);
         let found = world.run();
-        let found: Vec<_> = found.iter().map(|(rule, path)| (*rule, path.as_str())).collect();
+        let found = found.iter().map(|(rule, path)| (*rule, path.as_str()));
+        let found: Vec<_> = found.filter(|(rule, _)| !crate::is_general(*rule)).collect();
         assert_eq!(found, case.broken, "case {index}, of {:?}", case.rule);
     }
 }
 
 #[test]
 fn the_program_is_valid() {
-    assert_eq!(program().run(), []);
+    let mut found = program().run();
+    found.retain(|(rule, _)| !crate::is_general(*rule));
+    assert_eq!(found, []);
 }

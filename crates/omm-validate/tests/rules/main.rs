@@ -88,6 +88,12 @@ fn valid_builds_are_silent() {
     }
 }
 
+/// Whether a rule is one of last resort. They want whole programs, which the scenes of the other rules are not; scenarios show them,
+/// and the sequences of calls of `omm-fuzz` hold them against the simulated device.
+pub(crate) fn is_general(rule: RuleId) -> bool {
+    RULES.iter().any(|row| row.id == rule && row.is_last_resort())
+}
+
 /// Rules of valid usage that are checked, and shown, with the implicit ones.
 const SHOWN_WITH_IMPLICIT: [RuleId; 2] = [RuleId::DstMicromap07463, RuleId::HostDstMicromap07463];
 
@@ -95,7 +101,7 @@ const SHOWN_WITH_IMPLICIT: [RuleId; 2] = [RuleId::DstMicromap07463, RuleId::Host
 fn every_rule_is_broken_and_kept() {
     let cases = every_case();
     let here = RULES.iter().filter(|rule| rule.status == Status::Checked && rule.kind != Kind::Implicit);
-    let here = here.map(|rule| rule.id).filter(|rule| !SHOWN_WITH_IMPLICIT.contains(rule));
+    let here = here.map(|rule| rule.id).filter(|rule| !SHOWN_WITH_IMPLICIT.contains(rule) && !is_general(*rule));
     let missing: Vec<_> = here
         .map(|rule| (rule, cases.contains(&(rule, true)), cases.contains(&(rule, false))))
         .filter(|(_, broken, kept)| !broken || !kept)

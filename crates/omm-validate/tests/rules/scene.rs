@@ -26,6 +26,8 @@ pub(crate) const INDICES: u64 = BASE + 0x200;
 /// Where ranges of indirect builds go.
 pub(crate) const RANGES: u64 = BASE + 0x300;
 const STRUCTURES: u64 = BASE + 0x400;
+/// Zeros, which nothing is written to.
+const VERTICES: u64 = BASE + 0xc00;
 /// Where the micromap lies.
 pub(crate) const MICROMAP_AT: u64 = STRUCTURES;
 /// Where another buffer lies.
@@ -67,6 +69,8 @@ impl Scene {
         };
         let triangles = vk::GeometryTrianglesData {
             next: vec![attached.into()],
+            vertex_format: vk::Format::R32G32B32_SFLOAT,
+            vertex_data: vk::DeviceAddress(VERTICES).into(),
             vertex_stride: 12,
             max_vertex: 3 * PRIMITIVES - 1,
             index_type: vk::IndexType::NONE,
@@ -377,7 +381,8 @@ impl Case {
         let mut scene = (self.scene)();
         (self.change)(&mut scene);
         let report = scene.check();
-        let found: Vec<_> = report.iter().map(|it| (it.rule, it.location.as_str())).collect();
+        let found = report.iter().map(|it| (it.rule, it.location.as_str()));
+        let found: Vec<_> = found.filter(|(rule, _)| !crate::is_general(*rule)).collect();
         for violation in &report {
             assert!(!violation.objects.is_empty());
             let text = violation.to_string();

@@ -1,6 +1,6 @@
 //! The one place that knows bincode, with one configuration: little-endian, integers at their full width, lengths as u64.
 //!
-//! `wincode` reads and writes the same bytes, which a test holds us to. Values are decoded one at a time, so that an error has an
+//! Bundles and traces are written with it. `wincode` reads and writes the same bytes, which a test holds us to. Values are decoded one at a time, so that an error has an
 //! offset and nothing is reserved because of a length.
 
 use bincode::config::{Configuration, Fixint, LittleEndian};
@@ -10,7 +10,7 @@ use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::usage::MicromapUsage;
 
-use super::Source;
+use crate::bundle::Source;
 use crate::{ReadError, ReadErrorKind};
 
 const CONFIGURATION: Configuration<LittleEndian, Fixint> =
@@ -18,22 +18,22 @@ const CONFIGURATION: Configuration<LittleEndian, Fixint> =
 
 /// Encoded values, read from the front.
 #[derive(Clone, Debug)]
-pub(super) struct Input<'a> {
+pub(crate) struct Input<'a> {
     bytes: &'a [u8],
     position: usize,
 }
 
 impl<'a> Input<'a> {
-    pub(super) const fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) const fn new(bytes: &'a [u8]) -> Self {
         Self { bytes, position: 0 }
     }
 
-    pub(super) const fn position(&self) -> u64 {
+    pub(crate) const fn position(&self) -> u64 {
         self.position as u64
     }
 
     /// The next value; `size` is the least that its encoding takes.
-    fn value<T: BorrowDecode<'a, ()>>(&mut self, field: &'static str, size: u64) -> Result<T, ReadError> {
+    pub(crate) fn value<T: BorrowDecode<'a, ()>>(&mut self, field: &'static str, size: u64) -> Result<T, ReadError> {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
         match bincode::borrow_decode_from_slice(rest, CONFIGURATION) {
             Ok((value, taken)) => {
@@ -62,29 +62,47 @@ impl<'a> Input<'a> {
         ReadError { field: field.into(), offset: self.position(), kind }
     }
 
-    pub(super) fn magic(&mut self) -> Result<[u8; 8], ReadError> {
-        self.value("magic", 8)
+    /// Reads what every file begins with: the magic bytes of its format, and the only version of it that there is, 1.
+    pub(crate) fn start(&mut self, required: [u8; 8]) -> Result<(), ReadError> {
+        let found = self.value("magic", 8)?;
+        if found != required {
+            let kind = ReadErrorKind::Magic { found, required };
+            return Err(ReadError { field: "magic".into(), offset: 0, kind });
+        }
+        let version = self.u32("version")?;
+        if version != 1 {
+            let kind =
+                ReadErrorKind::Unknown { found: version.into(), required: "1, the only version this program reads" };
+            return Err(ReadError { field: "version".into(), offset: 8, kind });
+        }
+        Ok(())
     }
 
-    pub(super) fn u32(&mut self, field: &'static str) -> Result<u32, ReadError> {
+    /// Bytes that were not read yet.
+    pub(crate) const fn remaining(&self) -> u64 {
+        (self.bytes.len() - self.position) as u64
+    }
+
+    pub(crate) fn u32(&mut self, field: &'static str) -> Result<u32, ReadError> {
         self.value(field, 4)
     }
 
-    pub(super) fn u64(&mut self, field: &'static str) -> Result<u64, ReadError> {
+    pub(crate) fn u64(&mut self, field: &'static str) -> Result<u64, ReadError> {
         self.value(field, 8)
     }
 
     /// A list of bytes, in place.
-    pub(super) fn bytes(&mut self, field: &'static str) -> Result<&'a [u8], ReadError> {
+    pub(crate) fn bytes(&mut self, field: &'static str) -> Result<&'a [u8], ReadError> {
         self.value(field, 8)
     }
 
-    fn text(&mut self, field: &'static str) -> Result<&'a str, ReadError> {
+    /// A list of bytes that are text, in place.
+    pub(crate) fn text(&mut self, field: &'static str) -> Result<&'a str, ReadError> {
         self.value(field, 8)
     }
 
     /// Requires that nothing is left.
-    pub(super) fn finish(&self) -> Result<(), ReadError> {
+    pub(crate) fn finish(&self) -> Result<(), ReadError> {
         let found = self.bytes.len() as u64;
         if self.position() == found {
             return Ok(());
@@ -95,17 +113,17 @@ impl<'a> Input<'a> {
 }
 
 /// Name, length and digest of the next source.
-pub(super) fn check_source<'a>(input: &mut Input<'a>) -> Result<(&'a str, u64, [u8; 32]), ReadError> {
+pub(crate) fn check_source<'a>(input: &mut Input<'a>) -> Result<(&'a str, u64, [u8; 32]), ReadError> {
     Ok((input.text("name")?, input.u64("length")?, input.value("sha256", 32)?))
 }
 
-pub(super) fn source(input: &mut Input<'_>) -> Result<Source, ReadError> {
+pub(crate) fn source(input: &mut Input<'_>) -> Result<Source, ReadError> {
     let (name, length, sha256) = check_source(input)?;
     Ok(Source { name: name.to_owned(), length, sha256 })
 }
 
 /// The usage count that a record holds, if level and format have a meaning.
-pub(super) fn usage(record: &[u8; 12]) -> Option<MicromapUsage> {
+pub(crate) fn usage(record: &[u8; 12]) -> Option<MicromapUsage> {
     let ((count, level, format), _) =
         bincode::borrow_decode_from_slice::<(u32, u32, u32), _>(record, CONFIGURATION).ok()?;
     Some(MicromapUsage {
@@ -115,16 +133,26 @@ pub(super) fn usage(record: &[u8; 12]) -> Option<MicromapUsage> {
     })
 }
 
-/// Appends a value.
-pub(super) fn push(out: &mut Vec<u8>, value: impl Encode) {
-    struct Sink<'a>(&'a mut Vec<u8>);
-    impl bincode::enc::write::Writer for Sink<'_> {
-        fn write(&mut self, bytes: &[u8]) -> Result<(), bincode::error::EncodeError> {
-            self.0.extend_from_slice(bytes);
-            Ok(())
-        }
+/// Where bytes are appended.
+struct Sink<'a>(&'a mut Vec<u8>);
+
+impl bincode::enc::write::Writer for Sink<'_> {
+    fn write(&mut self, bytes: &[u8]) -> Result<(), bincode::error::EncodeError> {
+        self.0.extend_from_slice(bytes);
+        Ok(())
     }
+}
+
+/// Appends a value.
+pub(crate) fn push(out: &mut Vec<u8>, value: impl Encode) {
     // Neither the sink nor the encoding of numbers and bytes can fail.
     let result = bincode::encode_into_writer(value, Sink(out), CONFIGURATION);
+    debug_assert!(result.is_ok());
+}
+
+/// Appends a value of the model.
+pub(crate) fn push_value(out: &mut Vec<u8>, value: &impl serde::Serialize) {
+    // The model has nothing but structures, enums, lists whose length is known, numbers and text, all of which can be encoded.
+    let result = bincode::serde::encode_into_writer(value, Sink(out), CONFIGURATION);
     debug_assert!(result.is_ok());
 }
