@@ -77,7 +77,7 @@ fn what_cannot_be_done_is_said_and_leaves_nothing() {
     refused("trace minimize T.ommtrace -o X.json", "written as .ron (text) or .ommtrace (bytes)");
     refused("trace minimize T.ommtrace -o X.ron --keep 11575", "the trace does not break VUID-");
     refused("trace minimize T.ommtrace -o X.ron --keep undefined", "the device does not stop");
-    refused("trace minimize T.ommtrace -o X.ron --keep 1", "no rule in scope");
+    refused("trace minimize T.ommtrace -o X.ron --keep 1", "no rule is, or ends in, 1; did you mean");
     refused("run S.ron S.ron --trace X.ron", "a trace is of one scenario, these are 2");
     refused("trace run S.ron", "line ");
     let mut bytes = folder.read("T.ommtrace");

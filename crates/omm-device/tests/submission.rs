@@ -182,7 +182,8 @@ fn an_update_moves_vertices_and_nothing_else() {
     let opaque = |info: &mut vk::BuildGeometryInfo| {
         info.geometries.as_mut().unwrap()[0].flags = vk::GeometryFlags::OPAQUE;
     };
-    assert!(why(update(7.0, &opaque, &other)).ends_with("was built with geometry flags 0, the update needs 1"));
+    let flags = why(update(7.0, &opaque, &other));
+    assert!(flags.ends_with("was built with geometry flags 0x0, the update needs 0x1"), "{flags}");
     let inactive = why(update(f32::NAN, &|_| (), &other));
     assert!(inactive.ends_with("was built with active primitives 1, the update needs 0"), "{inactive}");
 }

@@ -141,7 +141,6 @@ impl<'a> Walk<'a, '_> {
     }
 
     fn bottom_level(&mut self, object: &BlasObject<'_>) {
-        let mut stored = Vec::with_capacity(object.geometry_count() as usize);
         for (index, geometry) in object.geometries().enumerate() {
             let name = |field: &str| format!("geometries[{index}].{field}");
             self.field(
@@ -154,15 +153,7 @@ impl<'a> Walk<'a, '_> {
             );
             self.field(4, || name("flags"), |bytes| format!("{:#x}", number(bytes)));
             self.field(4, || name("primitive_count"), |bytes| number(bytes).to_string());
-            let mut count = 0;
-            self.field(
-                4,
-                || name("stored_count"),
-                |bytes| {
-                    count = number(bytes);
-                    count.to_string()
-                },
-            );
+            self.field(4, || name("stored_count"), |bytes| number(bytes).to_string());
             self.field(
                 4,
                 || name("micromap"),
@@ -181,10 +172,9 @@ impl<'a> Walk<'a, '_> {
                 },
             );
             self.field(8, || name("data_offset"), |bytes| number(bytes).to_string());
-            stored.push((geometry, count));
         }
-        for (index, (geometry, count)) in stored.into_iter().enumerate() {
-            for record in 0..count {
+        for (index, geometry) in object.geometries().enumerate() {
+            for record in 0..geometry.stored_count() {
                 let at = format!("geometries[{index}].primitives[{record}]");
                 self.primitive(&at, &geometry);
             }

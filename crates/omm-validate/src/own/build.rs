@@ -17,7 +17,7 @@ use crate::context::{BuildContext, GeometryContext, Purpose};
 use crate::location::At;
 use crate::report::Report;
 use crate::rule::RuleId;
-use crate::state::State;
+use crate::state::{Built, MicromapBuilt, State};
 use crate::violation::ViolationKind;
 
 /// One build that executes.
@@ -181,7 +181,7 @@ fn attached_indices(geometry: &GeometryContext<'_>, count: u64, executed: &Execu
             stride: found.index_stride,
             base_triangle: found.base_triangle,
             is_null: found.micromap.is_null(),
-            triangles: built.and_then(|built| built.micromap_triangles()),
+            triangles: built.and_then(Built::micromap_triangles),
         };
         let executed = Executed { timeline: Timeline::Device, ..*executed };
         indices.check(&attached.at, count, &executed, report);
@@ -195,7 +195,7 @@ fn attached_indices(geometry: &GeometryContext<'_>, count: u64, executed: &Execu
             stride: found.index_stride,
             base_triangle: found.base_triangle,
             is_null: found.micromap.is_null(),
-            triangles: built.map(|built| built.triangles()),
+            triangles: built.map(MicromapBuilt::triangles),
         };
         indices.check(&attached.at, count, executed, report);
     });

@@ -7,7 +7,7 @@ use super::memory::Executed;
 use crate::location::At;
 use crate::report::Report;
 use crate::rule::RuleId;
-use crate::state::{Contents, MemorySpan, State, Storage};
+use crate::state::{Contents, MemorySpan, MicromapState, State, Storage};
 use crate::value::Constant;
 use crate::violation::ViolationKind;
 
@@ -49,7 +49,7 @@ pub(super) fn check_executed(call: &Call, command: &At<'_>, executed: &Executed<
         }
         Call::CmdCopyMicromapToMemory { info: copy, .. } | Call::CopyMicromapToMemory { info: copy, .. } => {
             executed.object(&info.field("src"), micromap_object(copy.src), report);
-            let told = executed.state.micromap(copy.src).and_then(|it| it.serialization_size());
+            let told = executed.state.micromap(copy.src).and_then(MicromapState::serialization_size);
             executed.reach(&info.field("dst"), copy.dst, told.unwrap_or(1), report);
         }
         Call::CmdWriteMicromapsProperties { micromaps, .. } | Call::WriteMicromapsProperties { micromaps, .. } => {

@@ -78,10 +78,10 @@ fn roots(container: &Container) -> Result<Vec<usize>, GltfError> {
         None => root.scenes.first(),
     };
     Ok(match scene {
-        Some(scene) => scene.nodes.iter().map(|node| node.value()).collect(),
+        Some(scene) => scene.nodes.iter().map(json::Index::value).collect(),
         None => {
             let children = root.nodes.iter().flat_map(|node| node.children.iter().flatten());
-            let children: BTreeSet<usize> = children.map(|child| child.value()).collect();
+            let children: BTreeSet<usize> = children.map(json::Index::value).collect();
             (0..root.nodes.len()).filter(|node| !children.contains(node)).collect()
         }
     })

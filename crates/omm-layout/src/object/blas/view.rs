@@ -272,6 +272,12 @@ impl<'a> GeometryView<'a> {
         self.record.count
     }
 
+    /// Primitives that are stored: all of a built object, active ones of a compacted one.
+    #[must_use]
+    pub const fn stored_count(&self) -> u32 {
+        self.record.stored
+    }
+
     /// Device address of the micromap, 0 for a null one; `None` if the geometry has none.
     #[must_use]
     pub const fn micromap(&self) -> Option<u64> {
