@@ -33,7 +33,7 @@ fn with(change: impl FnOnce(&mut Value)) -> Folder {
 fn render(folder: &Folder, arguments: &[&str]) -> common::Run {
     let (scene, out) = (folder.path("scene.glb"), folder.path("out.png"));
     let fixed = [scene.as_os_str(), "--size".as_ref(), "40x30".as_ref(), "--out".as_ref(), out.as_os_str()];
-    let all = ["render".as_ref()].into_iter().chain(fixed).chain(arguments.iter().map(|argument| argument.as_ref()));
+    let all = ["render".as_ref()].into_iter().chain(fixed).chain(arguments.iter().map(AsRef::as_ref));
     omm(all)
 }
 

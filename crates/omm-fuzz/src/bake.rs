@@ -8,7 +8,7 @@ use omm_model::level::SubdivisionLevel;
 use omm_model::opacity::OpacityState;
 
 /// The baker's own judge, which shares nothing with it.
-#[allow(clippy::unwrap_used, clippy::expect_used, dead_code, unreachable_pub)]
+#[allow(clippy::unwrap_used, clippy::expect_used)]
 #[path = "../../omm-bake/tests/oracle/mod.rs"]
 mod oracle;
 

@@ -206,7 +206,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn both_mistakes_are_reported() {
     let mut engine = Engine::new();
     frame(&mut engine).unwrap();
-    let found: Vec<_> = engine.reports.iter().flatten().map(|violation| violation.summary()).collect();
+    let found: Vec<_> = engine.reports.iter().flatten().map(omm_validate::Violation::summary).collect();
     assert_eq!(
         found,
         [

@@ -47,7 +47,6 @@ fn record(program: Program) -> Recorded {
     let mut app = App::new(&mut device, &mut recorder);
     let failed = |error| panic!("a program without a mistake: {error}");
     prologue(&mut app).unwrap_or_else(failed);
-    drop(app);
     let prologue = std::mem::take(&mut recorder.steps);
     program(&mut App::new(&mut device, &mut recorder)).unwrap_or_else(failed);
     Recorded { prologue, steps: recorder.steps }

@@ -141,7 +141,7 @@ impl<'a> Walk<'a, '_> {
     }
 
     fn bottom_level(&mut self, object: &BlasObject<'_>) {
-        for (index, geometry) in object.geometries().enumerate() {
+        for index in 0..object.geometry_count() {
             let name = |field: &str| format!("geometries[{index}].{field}");
             self.field(
                 4,
