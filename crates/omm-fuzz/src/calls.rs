@@ -85,11 +85,12 @@ fn spoiled(bytes: &[u8]) -> Vec<Step> {
 fn execute<'a>(steps: impl Iterator<Item = &'a Step>) -> Outcome {
     let profile = DeviceProfile::reference();
     let (mut device, mut validator) = (Device::with_heap_size(profile.clone(), HEAP), Validator::new(profile));
-    let (mut outcome, mut copied) = (Outcome::default(), Vec::new());
+    let (mut outcome, mut copied, mut asked) = (Outcome::default(), Vec::new(), Vec::new());
     for step in steps {
         match step {
             Step::Write(address, bytes) => {
-                if device.write(*address, bytes).is_ok() {
+                // No program writes where it does not know the address of.
+                if asked.contains(address) && device.write(*address, bytes).is_ok() {
                     validator.track_write(vk::DeviceAddressRange { address: *address, size: bytes.len() as u64 });
                 }
             }
@@ -103,6 +104,11 @@ fn execute<'a>(steps: impl Iterator<Item = &'a Step>) -> Outcome {
                         outcome.calls += 1;
                         outcome.executed += usize::from(does_work(call));
                         validator.track(call, &output);
+                        if let (Call::GetBufferDeviceAddress { .. }, Output::DeviceAddress(address)) =
+                            (&**call, &output)
+                        {
+                            asked.push(*address);
+                        }
                     }
                     // No driver would have given these handles to the program, or the device cannot do it.
                     Err(Undefined { why: Reason::HandleTaken { .. } | Reason::Unsupported { .. }, .. }) => {
