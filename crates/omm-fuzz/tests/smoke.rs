@@ -17,12 +17,19 @@ fn next(state: &mut u64) -> usize {
     *state as usize
 }
 
-/// The target of that name on its seeds and their mutations.
+/// What fuzzing found wrong with a target once, each under a name that says what.
+fn findings(name: &str) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("findings").join(name);
+    let Ok(files) = std::fs::read_dir(folder) else { return Vec::new() };
+    files.map(|file| std::fs::read(file.unwrap().path()).unwrap()).collect()
+}
+
+/// The target of that name on its seeds, earlier findings and their mutations.
 fn smoke(name: &str) {
     let target = TARGETS.iter().find(|target| target.name == name).unwrap();
     let seeds = (target.seeds)();
     assert!(!seeds.is_empty());
-    seeds.iter().for_each(|seed| (target.body)(seed));
+    seeds.iter().chain(&findings(name)).for_each(|bytes| (target.body)(bytes));
     let mut state = 0x9e37_79b9_7f4a_7c15;
     for seed in seeds.iter().cycle().take(MUTATIONS) {
         let mut bytes = seed.clone();

@@ -139,13 +139,15 @@ fn references(blob: &Blob<'_>, header: &ObjectHeader) -> Result<Vec<u64>, ReadEr
             Err(error("handle_count", COUNT_AT, ReadErrorKind::NotEqual { found, required }))
         }
         Count::Handles(_) => Ok(blob.handles().collect()),
-        Count::Blocks(found) => {
-            let found = found.into();
-            let required_blocks = u64::from(blocks);
-            if found != required_blocks {
-                let kind = ReadErrorKind::NotEqual { found, required: required_blocks };
-                return Err(error("block_count", COUNT_AT, kind));
-            }
+        // Written with a count of handles, which is 0 here: no blocks at all would not be the same bytes.
+        Count::Blocks(found) if !blocks => {
+            let kind = ReadErrorKind::Unknown { found: found.into(), required: "a count of handles" };
+            Err(error("block_count", COUNT_AT, kind))
+        }
+        Count::Blocks(found) if found != 1 => {
+            Err(error("block_count", COUNT_AT, ReadErrorKind::NotEqual { found: found.into(), required: 1 }))
+        }
+        Count::Blocks(_) => {
             if let Some(block) = blob.blocks().find(|block| block.block_type != BLOCK_TYPE_OPACITY_MICROMAP) {
                 let kind = ReadErrorKind::Unknown { found: block.block_type.into(), required: "0 (opacity micromaps)" };
                 return Err(error("blocks[0].type", FIXED_SIZE, kind));
