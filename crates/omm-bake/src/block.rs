@@ -7,7 +7,8 @@ use omm_model::opacity::OpacityState;
 use rayon::prelude::*;
 
 use crate::classify::{Classification, Node};
-use crate::patch::{Patch, Spot};
+use crate::packed;
+use crate::patch::{Bits, Patch, Spot};
 use crate::planes::Planes;
 use crate::promotion::{UnknownStatePromotion, mostly_opaque};
 use crate::statistics::StateCounts;
@@ -129,11 +130,7 @@ impl Piece<'_> {
             return self.set(classification, node, first, finer);
         }
         if let Some(spot) = patch.load(surface, planes, self.triangle, node, 1 << finer) {
-            match finer {
-                0 => self.leaf(patch, spot, first),
-                _ => self.visit_patch(patch, spot, first, finer),
-            }
-            return;
+            return self.visit_patch(patch, spot, first, finer);
         }
         if finer == 0 {
             return self.set(node.scan(surface, self.triangle), node, first, finer);
@@ -146,16 +143,53 @@ impl Piece<'_> {
 
     /// The same within a patch, for a node that is known not to be on one side, or not known to be.
     fn visit_patch(&mut self, patch: &mut Patch, spot: Spot, first: u32, finer: u32) {
+        if finer == 0 {
+            return self.leaf(patch, spot, first);
+        }
+        if finer == 2 && self.sixteen(patch, spot, first) {
+            return;
+        }
         let finer = finer - 1;
         for which in 0..4 {
             let (spot, first) = (patch.part(spot, finer, which), first + (which << (2 * finer)));
             match patch.quick(spot, finer) {
                 Some(Classification::Opaque) => self.put(OpacityState::Opaque, first, finer),
                 Some(_) => self.put(OpacityState::Transparent, first, finer),
-                None if finer == 0 => self.leaf(patch, spot, first),
                 None => self.visit_patch(patch, spot, first, finer),
             }
         }
+    }
+
+    /// Decides the microtriangles two levels below `spot` together; `false` if they are too large for that.
+    fn sixteen(&mut self, patch: &mut Patch, spot: Spot, first: u32) -> bool {
+        let BlockBaker { surface, promotion, .. } = *self.baker;
+        let Some(mut states) = patch.sixteen(surface, spot) else { return false };
+        for place in Bits(states & 0xaaaa_aaaa) {
+            let (which, shift) = (place / 2, place - 1);
+            let leaf = patch.one_of_sixteen(spot, which);
+            let node = || Node { weights: patch.weights(leaf), level: self.level };
+            let is_mixed = states >> shift & 1 == 0;
+            let classification = if is_mixed { Classification::Mixed } else { node().scan(surface, self.triangle) };
+            let mostly_opaque = || patch.mostly_opaque_in_tile(leaf).unwrap_or_else(|| self.mostly_opaque(node()));
+            let state = promotion.state(classification, mostly_opaque);
+            states = states & !(3 << shift) | u32::from(state.value()) << shift;
+            self.tally.undecided += u64::from(classification == Classification::Undecided);
+        }
+        self.put_sixteen(states, first);
+        true
+    }
+
+    /// Sets sixteen microtriangles from `first` on to `states`, two bits each.
+    fn put_sixteen(&mut self, states: u32, first: u32) {
+        let format = self.baker.format;
+        let word = match format {
+            OpacityMicromapFormat::TwoState => packed::gather(states).into(),
+            OpacityMicromapFormat::FourState => states,
+        };
+        let (at, length) = ((first * format.bits()) as usize / 8, 2 * format.bits() as usize);
+        let Some(bytes) = self.bytes.get_mut(at..at + length) else { return };
+        bytes.iter_mut().zip(word.to_le_bytes()).for_each(|(to, from)| *to = from);
+        self.tally.states.add_all(packed::count_word(word.into(), format, 16), 1);
     }
 
     /// Decides one microtriangle of a patch.

@@ -8,6 +8,7 @@
 //! Bytes are counted without what blocks of lowered levels come to share, so that the budget is met whatever they do.
 
 use std::collections::HashMap;
+use std::hash::DefaultHasher;
 
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
@@ -67,8 +68,8 @@ impl<'a> Budget<'a> {
         if self.options.replaces(block.tally.states).is_some() {
             return Ok(());
         }
-        // Blocks of which a 64-bit hash is the same are taken to share their bytes; the end is checked.
-        let hash = merge::hash(job.level, job.format, &block.data);
+        // Blocks of which a 64-bit hash, the same in every run, is the same are taken to share their bytes; the end is checked.
+        let hash = merge::hash(DefaultHasher::new(), job.level, job.format, &block.data);
         let known = self.options.merge.then(|| self.by_content.get(&hash)).flatten();
         let index = match known {
             Some(&index) => index as usize,

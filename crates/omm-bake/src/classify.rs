@@ -35,7 +35,7 @@ use omm_model::level::SubdivisionLevel;
 
 use crate::planes::Planes;
 use crate::sampler::{Axis, Filter};
-use crate::surface::Surface;
+use crate::surface::{Surface, floor};
 use crate::texel_triangle::{Corners, TexelTriangle};
 use crate::texture::Texture;
 
@@ -66,7 +66,7 @@ pub enum Classification {
 }
 
 impl Classification {
-    const fn of_side(above: bool) -> Self {
+    pub(crate) const fn of_side(above: bool) -> Self {
         if above { Self::Opaque } else { Self::Transparent }
     }
 }
@@ -149,7 +149,7 @@ fn cells(axis: &Axis, coordinates: [f64; 3], margin: f64) -> RangeInclusive<i64>
     let [a, b, c] = coordinates;
     let (least, most) = (a.min(b).min(c) - margin, a.max(b).max(c) + margin);
     // Coordinates are below 2^30 and a bit.
-    axis.cell(least.floor() as i64)..=axis.cell(most.floor() as i64)
+    axis.cell(floor(least))..=axis.cell(floor(most))
 }
 
 /// Whether the triangle certainly contains a square that is one period and one texel wide and high, around its centroid.

@@ -1,8 +1,8 @@
 //! The array under construction: blocks in order, the same bytes only once.
 
-use std::hash::{DefaultHasher, Hasher};
+use std::hash::{BuildHasher, Hasher};
 
-use hashbrown::HashTable;
+use hashbrown::{DefaultHashBuilder, HashTable};
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::triangle::MicromapTriangle;
@@ -22,13 +22,21 @@ pub(crate) struct ArrayBuilder {
     alignment: u32,
     bytes: Vec<u8>,
     triangles: Vec<MicromapTriangle>,
-    /// Triangles by a hash of their level, format and bytes.
-    by_content: HashTable<u32>,
+    hasher: DefaultHashBuilder,
+    /// Triangles by a hash of their level, format and bytes, which comes first.
+    by_content: HashTable<(u64, u32)>,
 }
 
 impl ArrayBuilder {
     pub(crate) fn new(merge: bool, alignment: u32) -> Self {
-        Self { merge, alignment, bytes: Vec::new(), triangles: Vec::new(), by_content: HashTable::new() }
+        Self {
+            merge,
+            alignment,
+            bytes: Vec::new(),
+            triangles: Vec::new(),
+            hasher: DefaultHashBuilder::default(),
+            by_content: HashTable::new(),
+        }
     }
 
     /// Bytes so far.
@@ -43,7 +51,7 @@ impl ArrayBuilder {
         format: OpacityMicromapFormat,
         data: &[u8],
     ) -> Result<u32, BakeError> {
-        let hash = if self.merge { hash(subdivision_level, format, data) } else { 0 };
+        let hash = if self.merge { hash(self.hasher.build_hasher(), subdivision_level, format, data) } else { 0 };
         let Self { bytes, triangles, .. } = self;
         let content = |index: u32| {
             let triangle = triangles.get(index as usize)?;
@@ -51,9 +59,9 @@ impl ArrayBuilder {
             let data = bytes.get(start..start + triangle.data_size() as usize)?;
             Some((triangle.subdivision_level, triangle.format, data))
         };
-        if let Some(&same) =
-            self.by_content.find(hash, |&index| content(index) == Some((subdivision_level, format, data)))
-        {
+        let same =
+            |&(other, index): &(u64, u32)| other == hash && content(index) == Some((subdivision_level, format, data));
+        if let Some(&(_, same)) = self.by_content.find(hash, same) {
             return Ok(same);
         }
         let start = self.len().next_multiple_of(self.alignment.into());
@@ -69,15 +77,7 @@ impl ArrayBuilder {
         self.bytes.extend_from_slice(data);
         self.triangles.push(MicromapTriangle { data_offset, subdivision_level, format });
         if self.merge {
-            let Self { bytes, triangles, by_content, .. } = self;
-            let rehash = |&index: &u32| {
-                triangles.get(index as usize).map_or(0, |triangle: &MicromapTriangle| {
-                    let start = triangle.data_offset as usize;
-                    let data = bytes.get(start..start + triangle.data_size() as usize).unwrap_or_default();
-                    self::hash(triangle.subdivision_level, triangle.format, data)
-                })
-            };
-            by_content.insert_unique(hash, index, rehash);
+            self.by_content.insert_unique(hash, (hash, index), |&(hash, _)| hash);
         }
         Ok(index)
     }
@@ -89,9 +89,13 @@ impl ArrayBuilder {
     }
 }
 
-/// A hash of a block that is the same in every run.
-pub(crate) fn hash(level: SubdivisionLevel, format: OpacityMicromapFormat, data: &[u8]) -> u64 {
-    let mut hasher = DefaultHasher::new();
+/// A hash of a block.
+pub(crate) fn hash(
+    mut hasher: impl Hasher,
+    level: SubdivisionLevel,
+    format: OpacityMicromapFormat,
+    data: &[u8],
+) -> u64 {
     hasher.write_u32(level.get());
     hasher.write_u16(format.value());
     hasher.write(data);

@@ -3,8 +3,10 @@
 use omm_model::format::OpacityMicromapFormat;
 use serde::{Deserialize, Serialize};
 
+use crate::packed::spread;
 use crate::sampler::{AddressMode, Sampler};
 use crate::schedule::{Job, Source};
+use crate::surface::floor;
 use crate::texture::Texture;
 
 /// In which order blocks lie in the array.
@@ -41,16 +43,12 @@ fn place(uvs: [[f32; 2]; 3], texture: &Texture, sampler: Sampler) -> u32 {
     let code = |axis: usize, mode: AddressMode, size: u32| {
         let centre = uvs.iter().map(|uv| f64::from(uv[axis])).sum::<f64>() / 3.0;
         // Coordinates that can be baked are below 2^30; what lies in a border belongs to the nearest texel.
-        let at = (centre * f64::from(size)).floor() as i64;
+        let at = floor(centre * f64::from(size));
         let texel = mode.texel(at, size).or_else(|| AddressMode::Clamp.texel(at, size)).unwrap_or_default();
-        spread((u64::from(texel) << 16) / u64::from(size))
+        // A texel is below the size, so 16 bits are left.
+        spread(((u64::from(texel) << 16) / u64::from(size)) as u16)
     };
     code(0, sampler.address_mode_u, texture.width()) | code(1, sampler.address_mode_v, texture.height()) << 1
-}
-
-/// The 16 low bits of `value`, a 0 between each two.
-fn spread(value: u64) -> u32 {
-    (0..16).fold(0, |spread, bit| spread | ((value >> bit & 1) as u32) << (2 * bit))
 }
 
 #[cfg(test)]
@@ -68,6 +66,5 @@ mod tests {
         let found: Vec<_> = (0..4).flat_map(|y| (0..4).map(move |x| at(x, y))).collect();
         assert_eq!(found, [0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15]);
         assert_eq!(at(0, 0), at(4, 8), "a period further on");
-        assert_eq!(spread(0xffff), 0x5555_5555);
     }
 }

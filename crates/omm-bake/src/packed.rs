@@ -15,6 +15,24 @@ const SIDES: u8 = 0x55;
 /// The high bits.
 const UNKNOWN: u8 = 0xaa;
 
+/// The bits with a 0 between each two.
+pub(crate) const fn spread(bits: u16) -> u32 {
+    let bits = bits as u32;
+    let bits = (bits | bits << 8) & 0x00ff_00ff;
+    let bits = (bits | bits << 4) & 0x0f0f_0f0f;
+    let bits = (bits | bits << 2) & 0x3333_3333;
+    (bits | bits << 1) & 0x5555_5555
+}
+
+/// Every other bit, from the first on.
+pub(crate) const fn gather(bits: u32) -> u16 {
+    let bits = bits & 0x5555_5555;
+    let bits = (bits | bits >> 1) & 0x3333_3333;
+    let bits = (bits | bits >> 2) & 0x0f0f_0f0f;
+    let bits = (bits | bits >> 4) & 0x00ff_00ff;
+    (bits | bits >> 8) as u16
+}
+
 /// Makes unknown what `other`, 4-state data of the same length, does not know to have the same state. The side stays.
 pub(crate) fn combine(data: &mut [u8], other: &[u8]) {
     for (byte, &other) in data.iter_mut().zip(other) {
@@ -66,30 +84,30 @@ pub(crate) fn to_four_state(data: &[u8], level: SubdivisionLevel) -> Vec<u8> {
 
 /// How many of the elements of `data`, of this format and level, have each state.
 pub(crate) fn count(data: &[u8], format: OpacityMicromapFormat, level: SubdivisionLevel) -> StateCounts {
-    let total = u64::from(level.microtriangles());
-    let ones = |of: fn(u64) -> u64| -> u64 {
-        let (words, rest) = data.as_chunks::<8>();
-        let rest = rest.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte));
-        words.iter().map(|word| u64::from_le_bytes(*word)).chain([rest]).map(|w| u64::from(of(w).count_ones())).sum()
-    };
-    match format {
-        OpacityMicromapFormat::TwoState => {
-            let opaque = ones(|word| word);
-            StateCounts { transparent: total - opaque.min(total), opaque, ..StateCounts::default() }
-        }
-        OpacityMicromapFormat::FourState => {
-            const LOW: u64 = 0x5555_5555_5555_5555;
-            let unknown = ones(|word| word >> 1 & LOW);
-            let unknown_opaque = ones(|word| word >> 1 & word & LOW);
-            let opaque = ones(|word| word & !(word >> 1) & LOW);
-            StateCounts {
-                transparent: total - (unknown + opaque).min(total),
-                opaque,
-                unknown_transparent: unknown - unknown_opaque,
-                unknown_opaque,
-            }
-        }
+    let per_word = u64::BITS / format.bits();
+    let total = level.microtriangles();
+    let (words, rest) = data.as_chunks::<8>();
+    let rest = rest.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte));
+    let mut counts = count_word(rest, format, total % per_word);
+    for word in words {
+        counts.add_all(count_word(u64::from_le_bytes(*word), format, per_word), 1);
     }
+    counts
+}
+
+/// How many of the first `total` elements of a word have each state; all other bits are 0.
+#[inline]
+pub(crate) fn count_word(word: u64, format: OpacityMicromapFormat, total: u32) -> StateCounts {
+    const LOW: u64 = 0x5555_5555_5555_5555;
+    let (sides, unknown) = match format {
+        OpacityMicromapFormat::TwoState => (word, 0),
+        OpacityMicromapFormat::FourState => (word & LOW, word >> 1 & LOW),
+    };
+    let (opaque, unknown_opaque) = ((sides & !unknown).count_ones(), (sides & unknown).count_ones());
+    let unknown_transparent = unknown.count_ones() - unknown_opaque;
+    let [opaque, unknown_transparent, unknown_opaque] = [opaque, unknown_transparent, unknown_opaque].map(u64::from);
+    let transparent = u64::from(total) - (opaque + unknown_transparent + unknown_opaque).min(total.into());
+    StateCounts { transparent, opaque, unknown_transparent, unknown_opaque }
 }
 
 /// The data one level up: each element is what its four children have in common, or, if they differ, unknown with the side that
@@ -149,6 +167,14 @@ mod tests {
 
     fn states(data: &[u8], format: OpacityMicromapFormat, level: SubdivisionLevel) -> Vec<OpacityState> {
         (0..level.microtriangles()).map(|index| format.state(data, index.into()).unwrap()).collect()
+    }
+
+    #[test]
+    fn bits_are_spread() {
+        for bits in 0..=u16::MAX {
+            let expected = (0..16).fold(0, |spread, bit| spread | u32::from(bits >> bit & 1) << (2 * bit));
+            assert_eq!((spread(bits), gather(expected | !expected << 1 & 0xaaaa_aaaa)), (expected, bits));
+        }
     }
 
     /// Data of any states at any level up to 4, and a second of the same size.

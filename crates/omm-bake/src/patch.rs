@@ -44,19 +44,28 @@
 //! triangle is on that side. If two sides have been found, it is mixed.
 
 mod cell;
+mod edges;
 mod estimate;
 mod grid;
+mod lanes;
+mod leaves;
+mod sixteen;
+mod tile;
 
 use omm_model::curve::Corner;
 
-use self::cell::{Cell, Change, lesser};
-use self::estimate::Samples;
+use self::cell::{Cell, Change};
+use self::estimate::set_samples;
 pub(crate) use self::grid::Spot;
-use self::grid::{Cells, EDGES, Grid, STRIDE};
+use self::grid::{Cells, Grid, STRIDE};
+use self::lanes::Edges;
+pub(crate) use self::sixteen::Bits;
+use self::sixteen::Boxes;
+use self::tile::{Points, Tile, set_corners};
 use crate::classify::{Classification, Node};
 use crate::planes::Planes;
 use crate::sampler::Filter;
-use crate::surface::Surface;
+use crate::surface::{Surface, floor};
 use crate::texel_triangle::TexelTriangle;
 use crate::window::{SIDE, Window};
 
@@ -99,7 +108,11 @@ impl Steps {
 pub(crate) struct Patch {
     window: Window,
     grid: Grid,
-    samples: Samples,
+    tile: Tile,
+    boxes: Boxes,
+    /// Corners of the sixteen microtriangles of a tile, and samples of one.
+    corners: Points,
+    samples: Points,
     /// Texels after a cell's own that a filter reaches.
     after: u32,
     linear: bool,
@@ -107,6 +120,7 @@ pub(crate) struct Patch {
     y: Steps,
     /// Changes of x and y along the edges of microtriangles.
     directions: [[Change; 3]; 2],
+    edges: Edges,
     /// Values further from the cutoff have a certain sign.
     margin: f64,
     /// Orientations further from 0 have a certain sign.
@@ -119,6 +133,8 @@ pub(crate) struct Patch {
     /// For each point of the grid its side in the lowest bits, and above them what is known of the edges that start there in each
     /// direction.
     seen: Vec<u8>,
+    /// Rows of `seen` that are still those of another patch.
+    stale_rows: u32,
 }
 
 impl Patch {
@@ -126,18 +142,23 @@ impl Patch {
         Self {
             window: Window::new(),
             grid: Grid::default(),
-            samples: Samples::default(),
+            tile: Tile::default(),
+            boxes: Boxes::default(),
+            corners: Points::default(),
+            samples: Points::default(),
             after: 0,
             linear: false,
             x: Steps::default(),
             y: Steps::default(),
             directions: [[Change::default(); 3]; 2],
+            edges: Edges::default(),
             margin: 0.0,
             orient_margin: 0.0,
             threshold: 0.0,
             clear: false,
             origin: Corner { u: 0, v: 0 },
             seen: vec![0; (STRIDE * (MAX_SEGMENTS + 1)) as usize],
+            stale_rows: 0,
         }
     }
 
@@ -174,9 +195,12 @@ impl Patch {
         self.y = Steps { origin: origin.y[0] - base[1] as f64, a: step_a[1], b: step_b[1] };
         if self.grid.set(self.x, self.y) {
             self.directions = [self.x.directions(), self.y.directions()];
-            self.samples.set(self.grid.steps);
+            self.edges.set(self.grid.steps);
+            set_corners(&mut self.corners, self.grid.steps);
+            self.boxes.set(self.grid.steps, &self.corners);
+            set_samples(&mut self.samples, self.grid.steps);
         }
-        self.seen.iter_mut().take((STRIDE * (segments + 1)) as usize).for_each(|seen| *seen = 0);
+        self.stale_rows = segments + 1;
         let local = node.weights.map(|corner| [corner.u - self.origin.u, corner.v - self.origin.v]);
         Some(Grid::root(self.x.origin, self.y.origin, local, segments))
     }
@@ -203,6 +227,8 @@ impl Patch {
         if !self.linear {
             return None;
         }
+        let stale = (STRIDE * std::mem::take(&mut self.stale_rows)) as usize;
+        self.seen.iter_mut().take(stale).for_each(|seen| *seen = UNSEEN);
         let own = spot.at + [0, STRIDE + 1][spot.half()];
         let (p, q, r) =
             (self.side(surface, spot.at + 1), self.side(surface, spot.at + STRIDE), self.side(surface, own));
@@ -213,26 +239,10 @@ impl Patch {
             return Some(Classification::Mixed);
         }
         let above = p == ABOVE;
-        let one_sided = Some(if above { Classification::Opaque } else { Classification::Transparent });
         if self.clear && self.box_is_one_sided(surface, spot, above) {
-            return one_sided;
+            return Some(Classification::of_side(above));
         }
-        let mut unsure = false;
-        for (edge, ([a, b], direction)) in EDGES[spot.half()].into_iter().enumerate() {
-            let cells = self.grid.edge_cells(spot, edge);
-            if !self.window.has(!above, cells.left, cells.right + 1, cells.top, cells.bottom + 1) {
-                continue;
-            }
-            match self.edge(surface, spot.at + a + b * STRIDE, direction, cells, above) {
-                TWO_SIDED => return Some(Classification::Mixed),
-                kind => unsure |= kind == UNSURE,
-            }
-        }
-        match self.contains_other(spot, above) {
-            Some(true) => Some(Classification::Mixed),
-            Some(false) if !unsure => one_sided,
-            _ => None,
-        }
+        self.leaf_by_edges(surface, spot, above)
     }
 
     /// Whether all of a microtriangle's box is `above` or not, by the cells that have texels of the other side.
@@ -295,85 +305,6 @@ impl Patch {
         side
     }
 
-    /// Whether the edge from a point of the grid in one of three directions, whose ends are `above` or not, has points on the other
-    /// side. It touches no other than `cells`.
-    fn edge(&mut self, surface: &Surface<'_>, at: u32, direction: usize, cells: Cells, above: bool) -> u8 {
-        let shift = 2 * direction + 2;
-        let seen = self.seen.get(at as usize).map_or(UNSEEN, |seen| seen >> shift & 3);
-        if seen != UNSEEN {
-            return seen;
-        }
-        let kind = self.edge_kind(surface, self.point(at), direction, cells, above);
-        if let Some(seen) = self.seen.get_mut(at as usize) {
-            *seen |= kind << shift;
-        }
-        kind
-    }
-
-    /// The same by the parts of the edge in those cells that can have such points.
-    fn edge_kind(&self, surface: &Surface<'_>, (x, y): (f64, f64), direction: usize, cells: Cells, above: bool) -> u8 {
-        let (along_x, along_y) = (self.directions[0][direction], self.directions[1][direction]);
-        let towards = if above { 1.0 } else { -1.0 };
-        let mut unsure = false;
-        for row in cells.top..=cells.bottom {
-            let in_row = along_y.part(y, row, [0.0, 1.0]);
-            let mut columns =
-                self.window.cells_of(!above || !self.clear, above || !self.clear, cells.left, cells.right, row);
-            while columns != 0 {
-                let column = columns.trailing_zeros();
-                columns &= columns - 1;
-                let [from, to] = along_x.part(x, column, in_row);
-                if from > to {
-                    continue;
-                }
-                let at = |t: f64| (x + t * along_x.by, y + t * along_y.by);
-                let cell = Cell::new(&self.window, surface, column, row, self.threshold);
-                let least = cell.least(at(from), at(to), towards, self.margin);
-                if least < -self.margin {
-                    return TWO_SIDED;
-                }
-                unsure |= least <= self.margin;
-            }
-        }
-        if unsure { UNSURE } else { ONE_SIDED }
-    }
-
-    /// Whether the microtriangle contains a texel centre that is on the other side; `None` if rounding decides.
-    fn contains_other(&self, spot: Spot, above: bool) -> Option<bool> {
-        let Cells { left, right, top, bottom } = self.grid.cells(spot, 0);
-        // A cell's own texel is its lower corner: that of the first column and row is outside of the box.
-        if left == right || top == bottom || !self.window.has(!above, left + 1, right, top + 1, bottom) {
-            return Some(false);
-        }
-        let [p, q, r] = spot.weights().map(|[a, b]| self.point(a + b * STRIDE));
-        let orient = |p: (f64, f64), q: (f64, f64), x: f64, y: f64| (q.0 - p.0) * (y - p.1) - (q.1 - p.1) * (x - p.0);
-        let area = orient(p, q, r.0, r.1);
-        let turn = if area < 0.0 { -1.0 } else { 1.0 };
-        let mut unsure = false;
-        for row in top + 1..=bottom {
-            let mut columns = self.window.row_of(!above, left + 1, right, row);
-            while columns != 0 {
-                let (x, y) = (f64::from(columns.trailing_zeros()), f64::from(row));
-                columns &= columns - 1;
-                let least =
-                    lesser(lesser(turn * orient(p, q, x, y), turn * orient(q, r, x, y)), turn * orient(r, p, x, y));
-                if least > self.orient_margin && area.abs() > self.orient_margin {
-                    return Some(true);
-                }
-                unsure |= least >= -self.orient_margin || area.abs() <= self.orient_margin;
-            }
-        }
-        (!unsure).then_some(false)
-    }
-
-    /// Whether at least half of the samples of a microtriangle are opaque, if that is certain.
-    pub(crate) fn mostly_opaque(&mut self, surface: &Surface<'_>, spot: Spot) -> Option<bool> {
-        if !self.linear {
-            return None;
-        }
-        self.samples.mostly_opaque(surface, &self.window, spot, self.grid.cells(spot, 0))
-    }
-
     /// The weights of a microtriangle's corners in the whole triangle.
     pub(crate) fn weights(&self, spot: Spot) -> [Corner; 3] {
         spot.weights().map(|[a, b]| Corner { u: self.origin.u + a, v: self.origin.v + b })
@@ -383,8 +314,8 @@ impl Patch {
 /// The first texel and the number of texels that coordinates can reach along an axis, if a window holds so many.
 fn texels(coordinates: [f64; 3], linear: bool) -> Option<(i64, u32)> {
     let [a, b, c] = coordinates;
-    let first = (a.min(b).min(c) - 2.0 * WIDEN).floor() as i64;
-    let last = (a.max(b).max(c) + 2.0 * WIDEN).floor() as i64 + i64::from(linear);
+    let first = floor(a.min(b).min(c) - 2.0 * WIDEN);
+    let last = floor(a.max(b).max(c) + 2.0 * WIDEN) + i64::from(linear);
     let count = last - first + 1;
     (count <= SIDE.into()).then_some((first, count as u32))
 }

@@ -1,9 +1,9 @@
 //! What has to be done, found without looking at a texel: which triangles are the same, their levels, and how much work they are.
 
 use std::collections::BTreeMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::BuildHasher;
 
-use hashbrown::HashTable;
+use hashbrown::{DefaultHashBuilder, HashTable};
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::opacity::OpacityState;
@@ -92,40 +92,44 @@ pub(crate) fn corner_uvs(input: &BakeInput<'_>, triangle: usize) -> Result<[[f32
     Ok(corner_uvs)
 }
 
-/// Finds triangles that are the same. Level and format follow from the coordinates and the override, so these say it.
+/// What is the same for triangles that are. Level and format follow from the coordinates and the override, so these say it.
+#[derive(PartialEq)]
+struct Key {
+    uvs: [[u32; 2]; 3],
+    own: TriangleOverride,
+}
+
+/// Finds triangles that are the same.
 struct SameTriangles<'a> {
     input: &'a BakeInput<'a>,
     options: &'a BakeOptions,
-    /// Jobs by the coordinates of their first triangle.
-    jobs: HashTable<u32>,
+    hasher: DefaultHashBuilder,
+    /// Jobs by the coordinates of their first triangle, of which the hash comes first.
+    jobs: HashTable<(u64, u32)>,
 }
 
 impl SameTriangles<'_> {
-    fn find(&self, jobs: &[Job], triangle: usize) -> Option<u32> {
-        let wanted = self.key(triangle);
-        self.jobs.find(hash(wanted.0), |&job| self.key(jobs[job as usize].triangle as usize) == wanted).copied()
+    /// The hash of `key`, and the job of a triangle with it.
+    fn find(&self, jobs: &[Job], key: &Key) -> (u64, Option<u32>) {
+        let hash = self.hasher.hash_one(key.uvs);
+        let same = |&(other, job): &(u64, u32)| other == hash && self.key(jobs[job as usize].triangle as usize) == *key;
+        (hash, self.jobs.find(hash, same).map(|&(_, job)| job))
     }
 
-    fn insert(&mut self, jobs: &[Job], job: u32) {
-        let mut table = std::mem::take(&mut self.jobs);
-        let hash = |job: u32| hash(self.key(jobs[job as usize].triangle as usize).0);
-        table.insert_unique(hash(job), job, |&job| hash(job));
-        self.jobs = table;
+    fn insert(&mut self, hash: u64, job: u32) {
+        self.jobs.insert_unique(hash, (hash, job), |&(hash, _)| hash);
     }
 
-    /// What is the same for triangles that are. The indices of the triangle have been checked.
-    fn key(&self, triangle: usize) -> ([[u32; 2]; 3], TriangleOverride) {
+    /// The key of a triangle of which the indices have been checked.
+    fn key(&self, triangle: usize) -> Key {
+        self.key_of(triangle, corner_uvs(self.input, triangle).unwrap_or_default())
+    }
+
+    fn key_of(&self, triangle: usize, uvs: [[f32; 2]; 3]) -> Key {
         // Both zeros are the same number.
         let bits = |uv: [f32; 2]| uv.map(|coordinate| (coordinate + 0.0).to_bits());
-        (corner_uvs(self.input, triangle).unwrap_or_default().map(bits), self.options.override_of(triangle))
+        Key { uvs: uvs.map(bits), own: self.options.override_of(triangle) }
     }
-}
-
-/// A hash of texture coordinates that is the same in every run.
-fn hash(uvs: [[u32; 2]; 3]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    uvs.hash(&mut hasher);
-    hasher.finish()
 }
 
 impl<'a> Schedule<'a> {
@@ -147,16 +151,19 @@ impl<'a> Schedule<'a> {
             baked_triangles: 0,
             texels: 0,
         };
-        let mut known = SameTriangles { input, options, jobs: HashTable::new() };
+        let mut known = SameTriangles { input, options, hasher: DefaultHashBuilder::default(), jobs: HashTable::new() };
         let mut unbakeable = BTreeMap::new();
         for triangle in 0..triangles {
             let uvs = corner_uvs(input, triangle)?;
-            if options.merge
-                && let Some(job) = known.find(&schedule.jobs, triangle)
-            {
-                schedule.jobs[job as usize].uses += 1;
-                schedule.job_of.push(job);
-                continue;
+            let mut hash = 0;
+            if options.merge {
+                let (of_key, same) = known.find(&schedule.jobs, &known.key_of(triangle, uvs));
+                if let Some(job) = same {
+                    schedule.jobs[job as usize].uses += 1;
+                    schedule.job_of.push(job);
+                    continue;
+                }
+                hash = of_key;
             }
             // There are no more jobs than triangles, and no more of these than i32::MAX.
             let mut job = schedule.jobs.len() as u32;
@@ -166,7 +173,7 @@ impl<'a> Schedule<'a> {
             }
             schedule.add(job, found);
             if options.merge && found.source == Source::Texels {
-                known.insert(&schedule.jobs, job);
+                known.insert(hash, job);
             }
         }
         schedule.check_size(options)?;

@@ -24,8 +24,9 @@ pub struct TexelTriangle {
     y: [f64; 3],
     /// Bound on the rounding of a microtriangle's coordinates; see [`Corners::epsilon`].
     epsilon: f64,
-    /// The same points as integers.
-    fixed: Fixed,
+    /// What the points are made of, for integers.
+    uvs: [[f32; 2]; 3],
+    size: [u32; 2],
 }
 
 /// Why a triangle cannot be baked.
@@ -49,15 +50,13 @@ pub(crate) struct Corners {
     pub(crate) epsilon: f64,
 }
 
-#[derive(Clone, Debug)]
 enum Fixed {
     /// Everything that a microtriangle's corners need fits in 127 bits.
-    Narrow(Box<FixedTriangle<i128>>),
-    Wide(Box<FixedTriangle<BigInt>>),
+    Narrow(FixedTriangle<i128>),
+    Wide(FixedTriangle<BigInt>),
 }
 
 /// Texel coordinates in units of 2^-`fraction_bits`.
-#[derive(Clone, Debug)]
 struct FixedTriangle<T> {
     x: [T; 3],
     y: [T; 3],
@@ -82,7 +81,7 @@ impl TexelTriangle {
         }
         // 2^-49, and the sum may round down by less than the factor makes up.
         let epsilon = (farthest + 1.0) * (1.0 + f64::EPSILON) / 562_949_953_421_312.0;
-        Ok(Self { x, y, epsilon, fixed: Fixed::new(uvs, width, height) })
+        Ok(Self { x, y, epsilon, uvs, size: [width, height] })
     }
 
     /// The area in texels, rounded.
@@ -119,7 +118,8 @@ impl TexelTriangle {
 
     /// The same corners without rounding. `half` subtracts one half from each coordinate.
     pub(crate) fn exact_corners(&self, weights: [Corner; 3], level: SubdivisionLevel, half: bool) -> Exact {
-        match &self.fixed {
+        let [width, height] = self.size;
+        match Fixed::new(self.uvs, width, height) {
             Fixed::Narrow(fixed) => Exact::Narrow(fixed.corners(weights, level, half)),
             Fixed::Wide(fixed) => Exact::Wide(fixed.corners(weights, level, half)),
         }
@@ -153,9 +153,9 @@ impl Fixed {
         let fraction_bits = least.unsigned_abs();
         // A coordinate below 2^30 takes 30 + fraction_bits, a corner 12 (the level) and 2 (the half and the sign) more.
         if fraction_bits <= 80 {
-            Self::Narrow(Box::new(FixedTriangle::new(parts, fraction_bits, width, height)))
+            Self::Narrow(FixedTriangle::new(parts, fraction_bits, width, height))
         } else {
-            Self::Wide(Box::new(FixedTriangle::new(parts, fraction_bits, width, height)))
+            Self::Wide(FixedTriangle::new(parts, fraction_bits, width, height))
         }
     }
 }

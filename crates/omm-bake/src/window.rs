@@ -88,10 +88,10 @@ impl Window {
         let join = |a: [u64; 2], b: [u64; 2]| [a[0] | b[0], a[1] | b[1]];
         // The last run ends with the last row; it may overlap the first.
         let mut found = join(at(top), at(bottom + 1 - length));
-        if height > 8 {
-            for row in (top + length..bottom + 1 - length).step_by(length as usize) {
-                found = join(found, at(row));
-            }
+        let mut row = top + length;
+        while row + length <= bottom {
+            found = join(found, at(row));
+            row += length;
         }
         found
     }
@@ -115,6 +115,13 @@ impl Window {
         let [texels_above, texels_below] = self.runs[1][(row % SIDE) as usize];
         let texels = if above { texels_above } else { 0 } | if below { texels_below } else { 0 };
         (texels | texels >> 1) & columns(left, right)
+    }
+
+    /// The cells of `left..=right` in row `row` in which some texel is above and some is not.
+    #[inline]
+    pub(crate) fn mixed_cells(&self, left: u32, right: u32, row: u32) -> u64 {
+        let [above, below] = self.runs[1][(row % SIDE) as usize];
+        (above | above >> 1) & (below | below >> 1) & columns(left, right)
     }
 
     /// The stored values at (`x`, `y`), (`x` + 1, `y`), (`x`, `y` + 1) and (`x` + 1, `y` + 1) of the window, all in it.

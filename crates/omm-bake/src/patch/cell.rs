@@ -1,15 +1,20 @@
-//! One cell's polynomial, and the part of an edge that is in a cell; the proof is with [`Patch`](super::Patch).
+//! One cell's polynomial, and the part of an edge that is in a cell; the proofs are with [`Patch`](super::Patch) for `f64`,
+//! and with [`tile`](super::tile) for `f32`.
+
+use num_traits::Float;
 
 use crate::surface::Surface;
 use crate::window::Window;
 
-/// The lesser of two numbers that are not NaN: `f64::min` has more cases.
-pub(super) fn lesser(a: f64, b: f64) -> f64 {
+/// The lesser of two numbers that are not NaN: `min` has more cases.
+#[inline(always)]
+pub(super) fn lesser<T: PartialOrd>(a: T, b: T) -> T {
     if a < b { a } else { b }
 }
 
 /// The greater of two numbers that are not NaN.
-pub(super) fn greater(a: f64, b: f64) -> f64 {
+#[inline(always)]
+pub(super) fn greater<T: PartialOrd>(a: T, b: T) -> T {
     if a > b { a } else { b }
 }
 
@@ -37,40 +42,18 @@ impl Change {
 }
 
 /// A cell's polynomial: values less the cutoff.
-pub(super) struct Cell {
-    x: f64,
-    y: f64,
-    values: [f64; 4],
+pub(super) struct Cell<T> {
+    pub(super) x: T,
+    pub(super) y: T,
+    pub(super) values: [T; 4],
 }
 
-impl Cell {
+impl Cell<f64> {
     #[inline]
     pub(super) fn new(window: &Window, surface: &Surface<'_>, x: u32, y: u32, threshold: f64) -> Self {
         let [a, b, c, d] = window.values(surface, x, y);
         let values = [a - threshold, b - threshold, c - threshold, d - threshold];
         Self { x: f64::from(x), y: f64::from(y), values }
-    }
-
-    fn twist(&self) -> f64 {
-        let [d00, d10, d01, d11] = self.values;
-        (d11 - d10) - (d01 - d00)
-    }
-
-    pub(super) fn value(&self, x: f64, y: f64) -> f64 {
-        let [d00, d10, d01, _] = self.values;
-        let (a, b) = (x - self.x, y - self.y);
-        d00 + a * (d10 - d00) + b * (d01 - d00) + a * b * self.twist()
-    }
-
-    /// The least value, times `towards`, on a rectangle: ranges of positions within the cell.
-    #[inline]
-    pub(super) fn least_within(&self, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2], towards: f64) -> f64 {
-        let [d00, d10, d01, d11] = self.values.map(|value| towards * value);
-        let at = |y: f64| {
-            let (left, right) = (d00 + y * (d01 - d00), d10 + y * (d11 - d10));
-            lesser(left + x0 * (right - left), left + x1 * (right - left))
-        };
-        lesser(at(y0), at(y1))
     }
 
     /// The least value, times `towards`, on the way between two points; where it is above `enough`, perhaps a lower bound.
@@ -84,6 +67,32 @@ impl Cell {
         }
         let rise = b - a;
         if rise.abs() < bend { lesser(end, (a + b) / 2.0 - bend / 4.0 - rise * rise / (4.0 * bend)) } else { end }
+    }
+}
+
+impl<T: Float> Cell<T> {
+    #[inline(always)]
+    fn twist(&self) -> T {
+        let [d00, d10, d01, d11] = self.values;
+        (d11 - d10) - (d01 - d00)
+    }
+
+    #[inline(always)]
+    pub(super) fn value(&self, x: T, y: T) -> T {
+        let [d00, d10, d01, _] = self.values;
+        let (a, b) = (x - self.x, y - self.y);
+        d00 + a * (d10 - d00) + b * (d01 - d00) + a * b * self.twist()
+    }
+
+    /// The least value, times `towards`, on a rectangle: ranges of positions within the cell.
+    #[inline(always)]
+    pub(super) fn least_within(&self, [x0, x1]: [T; 2], [y0, y1]: [T; 2], towards: T) -> T {
+        let [d00, d10, d01, d11] = self.values.map(|value| towards * value);
+        let at = |y: T| {
+            let (left, right) = (d00 + y * (d01 - d00), d10 + y * (d11 - d10));
+            lesser(left + x0 * (right - left), left + x1 * (right - left))
+        };
+        lesser(at(y0), at(y1))
     }
 }
 

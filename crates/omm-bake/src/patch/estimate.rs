@@ -1,108 +1,46 @@
 //! Which half of a mixed microtriangle is larger, by the samples of [`promotion`](crate::promotion), 16 at a time.
 //!
-//! # Why the answer is that of `f64`
-//!
-//! Samples are the centroids of [`SAMPLES`], at fixed-point coordinates: off by less than 2^-13 texel, as boxes are (see
-//! [`Patch`](super::Patch)), and by 2^-20 for their own rounding. Values are taken less the cutoff and divided by the
-//! surface's *reach*, so all are within -1..=1, the surface is continuous, and it changes by no more than 2 for a texel along an
-//! axis: a value is off by less than 2^-11 + 2^-18 for its place. In `f32`, of which no number here exceeds 4, its texels and the
-//! polynomial make some ten roundings of at most 2^-22 each. Together that is less than 2^-10. The same samples in `f64` are off by
-//! far less than what is left. So a value further from 0 than [`MARGIN`] = 2^-10 has the sign that `f64` finds, and if one is not
-//! further, `f64` is asked.
+//! Samples are the centroids of [`SAMPLES`]; their values are those of [`tile`](super::tile), with its proof. The same samples in
+//! `f64` are off by far less. So a value that is above or below with certainty has the sign that `f64` finds, and if one is not,
+//! `f64` is asked.
 
-use super::grid::{Cells, FRACTION, Spot};
+use super::Patch;
+use super::grid::Spot;
+use super::tile::Points;
 use crate::promotion::SAMPLES;
 use crate::surface::Surface;
-use crate::window::Window;
 
-/// Values further from 0 have a certain sign.
-const MARGIN: f32 = 1.0 / 1024.0;
-/// Columns and rows of texels around a microtriangle, at most.
-pub(crate) const BLOCK: usize = 8;
+/// Weights of the samples, in twelfths.
+const WEIGHTS: [[i32; 2]; 16] = {
+    let mut weights = [[0; 2]; 16];
+    let mut k = 0;
+    while k < 16 {
+        weights[k] = [SAMPLES[k][0] as i32, SAMPLES[k][1] as i32];
+        k += 1;
+    }
+    weights
+};
 
-/// The 16 samples of a microtriangle of each half, in fixed-point coordinates from its anchor.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Samples {
-    x: [[i32; 16]; 2],
-    y: [[i32; 16]; 2],
-    /// Texels around a microtriangle, and two rows more for the compiler: indices into them are in range by their bits.
-    block: [[f32; BLOCK]; BLOCK + 2],
+/// The samples of a microtriangle.
+pub(super) fn set_samples(points: &mut Points, steps: [[i64; 2]; 2]) {
+    points.set(steps, &WEIGHTS, 12, 1);
 }
 
-impl Samples {
-    /// Takes the steps of a grid.
-    pub(super) fn set(&mut self, steps: [[i64; 2]; 2]) {
-        for (axis, halves) in [&mut self.x, &mut self.y].into_iter().enumerate() {
-            let [a, b] = [steps[0][axis], steps[1][axis]];
-            let [lower, upper] = halves;
-            for ((lower, upper), weights) in lower.iter_mut().zip(upper).zip(SAMPLES) {
-                let [p, q] = weights.map(|weight| weight as i64);
-                // A step is at most 64 texels.
-                *lower = ((a * p + b * q) / 12) as i32;
-                // The other half is the first turned round the middle of both.
-                *upper = (a + b) as i32 - *lower;
-            }
-        }
-    }
-
-    /// Whether at least half of the samples of `spot`, which touches `cells`, are opaque; `None` if rounding decides, or if the
-    /// microtriangle is large.
-    pub(super) fn mostly_opaque(
-        &mut self,
-        surface: &Surface<'_>,
-        window: &Window,
-        spot: Spot,
-        cells: Cells,
-    ) -> Option<bool> {
-        let (columns, rows) = (cells.right - cells.left + 2, cells.bottom - cells.top + 2);
-        if columns.max(rows) > BLOCK as u32 {
+impl Patch {
+    /// Whether at least half of the samples of a microtriangle are opaque; `None` if rounding decides, or if the microtriangle is
+    /// large.
+    pub(crate) fn mostly_opaque(&mut self, surface: &Surface<'_>, spot: Spot) -> Option<bool> {
+        if !self.linear || !self.tile.load(surface, &self.window, self.grid.cells(spot, 0)) {
             return None;
         }
-        window.differences(surface, [cells.left, cells.top], [columns, rows], &mut self.block);
-        let [x, y] = spot.coordinates();
-        let (x, y) = (x - (cells.left << FRACTION) as i32, y - (cells.top << FRACTION) as i32);
-        let (above, below) = count([x, y], &self.x[spot.half()], &self.y[spot.half()], self.block.as_flattened());
+        self.mostly_opaque_in_tile(spot)
+    }
+
+    /// The same for a microtriangle where the tile is.
+    pub(crate) fn mostly_opaque_in_tile(&self, spot: Spot) -> Option<bool> {
+        let [above, below] = self.tile.count(spot, &self.samples);
         (above + below == 16).then_some(above >= 8)
     }
-}
-
-/// How many of 16 points, given from (`x`, `y`) on, are above and below with certainty. Loops over all of them with an index each, by
-/// itself: so the compiler makes vectors of them.
-#[allow(clippy::needless_range_loop)]
-#[inline(never)]
-fn count([x, y]: [i32; 2], from_x: &[i32; 16], from_y: &[i32; 16], texels: &[f32]) -> (i32, i32) {
-    let Some(texels) = texels.first_chunk::<{ BLOCK * (BLOCK + 2) }>() else { return (0, 0) };
-    let (mut xs, mut ys, mut at) = ([0; 16], [0; 16], [0; 16]);
-    for k in 0..16 {
-        xs[k] = x + from_x[k];
-        ys[k] = y + from_y[k];
-    }
-    for k in 0..16 {
-        // The cell's texel: its row in the upper three bits, its column in the lower.
-        at[k] = ys[k] >> (FRACTION - 3) & 0x38 | xs[k] >> FRACTION & 7;
-    }
-    let (mut lower, mut upper) = ([[0.0; 2]; 16], [[0.0; 2]; 16]);
-    for k in 0..16 {
-        let at = (at[k] & 0x3f) as usize;
-        lower[k] = [texels[at], texels[at + 1]];
-        upper[k] = [texels[at + BLOCK], texels[at + BLOCK + 1]];
-    }
-    let (mut above, mut below) = (0, 0);
-    for k in 0..16 {
-        let (x, y) = (fraction(xs[k]), fraction(ys[k]));
-        let ([d00, d10], [d01, d11]) = (lower[k], upper[k]);
-        let (lower, upper) = (d00 + x * (d10 - d00), d01 + x * (d11 - d01));
-        let value: f32 = lower + y * (upper - lower);
-        above += i32::from(value > MARGIN);
-        below += i32::from(value < -MARGIN);
-    }
-    (above, below)
-}
-
-/// The position within a cell.
-fn fraction(coordinate: i32) -> f32 {
-    let unit = 1_i32 << FRACTION;
-    (coordinate & (unit - 1)) as f32 * (1.0 / unit as f32)
 }
 
 #[cfg(test)]

@@ -11,17 +11,17 @@ use super::Steps;
 /// Bits of the fraction of a coordinate.
 pub(super) const FRACTION: u32 = 20;
 /// 2^-13 texel in these units.
-const WIDEN: i64 = 1 << (FRACTION - 13);
+pub(super) const WIDEN: i64 = 1 << (FRACTION - 13);
 /// What an index of a grid point grows by with b; it grows by 1 with a.
 pub(super) const STRIDE: u32 = 128;
 /// Sizes of nodes: 2^0 to 2^6 segments.
 const SIZES: usize = 7;
 
 /// In which order the curve passes the corners of a node, and which half it is: an index into [`ORDERS`].
-type Order = u8;
+pub(super) type Order = u8;
 
 /// The corners of a node of one segment, in the order of the curve: of the half at the anchor first, of the other then.
-const ORDERS: [[[u32; 2]; 3]; 12] = {
+pub(super) const ORDERS: [[[u32; 2]; 3]; 12] = {
     let halves = [[[0, 0], [1, 0], [0, 1]], [[1, 0], [0, 1], [1, 1]]];
     let permutations = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
     let mut orders = [[[0; 2]; 3]; 12];
@@ -36,13 +36,13 @@ const ORDERS: [[[u32; 2]; 3]; 12] = {
 
 /// Part of a node: its anchor in halves of the node, a + 2 b, and its order.
 #[derive(Clone, Copy)]
-struct Part {
-    anchor: u8,
-    order: Order,
+pub(super) struct Part {
+    pub(super) anchor: u8,
+    pub(super) order: Order,
 }
 
 /// The four parts of a node of each order.
-const PARTS: [[Part; 4]; 12] = {
+pub(super) const PARTS: [[Part; 4]; 12] = {
     let mut parts = [[Part { anchor: 0, order: 0 }; 4]; 12];
     let mut k = 0;
     while k < 48 {
@@ -90,7 +90,7 @@ pub(crate) struct Spot {
     pub(super) point: u64,
     /// The anchor's index in the grid.
     pub(super) at: u32,
-    order: Order,
+    pub(super) order: Order,
 }
 
 impl Spot {
@@ -177,7 +177,7 @@ pub(super) struct Grid {
     /// By how much a point moves with a and with b.
     pub(super) steps: [[i64; 2]; 2],
     /// From the anchor of a node of twice the size to those of its parts, by size and anchor of the part: as point and as index.
-    parts: [[(u64, u32); 4]; SIZES],
+    pub(super) parts: [[(u64, u32); 4]; SIZES],
     /// Boxes of nodes, by size and half.
     nodes: [[Extent; 2]; SIZES],
     /// Boxes of the edges of a microtriangle, by half.
