@@ -122,7 +122,7 @@ pub fn bake<A: ProgressAnswer>(
     progress: &(dyn Fn(Progress) -> A + Sync),
 ) -> Result<BakeOutput, BakeError> {
     let mut schedule = Schedule::new(input, options)?;
-    let layers = Layers::new(&schedule, input, options)?;
+    let layers = Layers::new(&schedule, options)?;
     let estimate = schedule.estimate(options);
     let watch = Watch::new(progress, estimate.microtriangles);
     let over_budget = options.max_array_bytes.filter(|&limit| schedule.most_bytes(options) > limit);
@@ -166,9 +166,7 @@ fn for_each_block<A: ProgressAnswer>(
     watch: &Watch<'_, A>,
     mut baked: impl FnMut(usize, &Block) -> Result<(), BakeError>,
 ) -> Result<(), BakeError> {
-    let key = |(number, job): (u32, &Job)| {
-        (options.order.key(job, layers.uvs(job), schedule.mips[0], options.sampler), number)
-    };
+    let key = |(number, job): (u32, &Job)| (options.order.key(job, schedule.mips[0], options.sampler), number);
     let mut order: Vec<(u64, u32)> = (0..).zip(&schedule.jobs).map(key).collect();
     order.sort_unstable();
     let finished = |count| watch.advance(count);

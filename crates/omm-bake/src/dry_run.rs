@@ -55,7 +55,7 @@ struct Look {
 /// [`BakeError`], as from [`bake`](crate::bake()), for input that cannot be baked and for budgets that cannot be met.
 pub fn dry_run(input: &BakeInput<'_>, options: &BakeOptions) -> Result<DryRun, BakeError> {
     let schedule = Schedule::new(input, options)?;
-    let layers = Layers::new(&schedule, input, options)?;
+    let layers = Layers::new(&schedule, options)?;
     let looks = schedule.jobs.par_iter().map_init(Patch::new, |patch, job| look(&layers, job, options, patch));
     let looks: Vec<Look> = looks.collect();
     let mut lowering = Lowering::new(options);

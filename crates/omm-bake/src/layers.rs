@@ -4,11 +4,11 @@ use omm_model::format::OpacityMicromapFormat;
 
 use crate::block::{Block, BlockBaker, Tally};
 use crate::error::BakeError;
-use crate::options::{BakeInput, BakeOptions, CutoffStates};
+use crate::options::{BakeOptions, CutoffStates};
 use crate::packed;
 use crate::patch::Patch;
 use crate::planes::Planes;
-use crate::schedule::{Job, Schedule, Source, corner_uvs};
+use crate::schedule::{Job, Schedule, Source};
 use crate::surface::Surface;
 use crate::texel_triangle::TexelTriangle;
 
@@ -23,34 +23,23 @@ struct Layer<'a> {
 #[derive(Debug)]
 pub(crate) struct Layers<'a> {
     layers: Vec<Layer<'a>>,
-    input: &'a BakeInput<'a>,
     options: &'a BakeOptions,
 }
 
 impl<'a> Layers<'a> {
-    pub(crate) fn new(
-        schedule: &Schedule<'a>,
-        input: &'a BakeInput<'a>,
-        options: &'a BakeOptions,
-    ) -> Result<Self, BakeError> {
+    pub(crate) fn new(schedule: &Schedule<'a>, options: &'a BakeOptions) -> Result<Self, BakeError> {
         let layer = |mip| {
             let surface = Surface::new(mip, options.sampler, options.alpha_cutoff)?;
             let planes = Planes::new(&surface);
             Ok(Layer { surface, planes })
         };
         let layers = schedule.mips.iter().copied().map(layer).collect::<Result<_, BakeError>>()?;
-        Ok(Self { layers, input, options })
-    }
-
-    /// The texture coordinates of `job`.
-    pub(crate) fn uvs(&self, job: &Job) -> [[f32; 2]; 3] {
-        // Jobs are made of triangles whose indices have been checked.
-        corner_uvs(self.input, job.triangle as usize).unwrap_or_default()
+        Ok(Self { layers, options })
     }
 
     /// The triangle of `job` in texels of the finest mip.
     pub(crate) fn triangle(&self, job: &Job) -> Option<TexelTriangle> {
-        TexelTriangle::new(self.uvs(job), self.layers.first()?.surface.texture()).ok()
+        TexelTriangle::new(job.uvs, self.layers.first()?.surface.texture()).ok()
     }
 
     /// The data of `job`; none if a special index will stand for it. `patch` is room to work in, and `finished` is told of microtriangles
@@ -76,13 +65,12 @@ impl<'a> Layers<'a> {
     }
 
     fn bake_texels(&self, job: &Job, patch: &mut Patch, finished: &(dyn Fn(u64) + Sync)) -> Block {
-        let uvs = self.uvs(job);
         let is_plain = self.layers.len() == 1 && self.options.cutoff_states == CutoffStates::default();
         let format = if is_plain { job.format } else { OpacityMicromapFormat::FourState };
         let mut block = Block::default();
         for (mip, baker) in self.bakers(format).enumerate() {
             // Found to succeed for the first mip, and the others are no larger.
-            let Ok(triangle) = TexelTriangle::new(uvs, baker.surface.texture()) else { continue };
+            let Ok(triangle) = TexelTriangle::new(job.uvs, baker.surface.texture()) else { continue };
             if mip == 0 {
                 block = baker.bake(&triangle, job.level, patch, finished);
             } else if packed::count(&block.data, format, job.level).known() == 0 {

@@ -26,13 +26,13 @@ pub enum BlockOrder {
 
 impl BlockOrder {
     /// What jobs are sorted by; equal ones stay in the order of the mesh. Those that cannot be baked come last.
-    pub(crate) fn key(self, job: &Job, uvs: [[f32; 2]; 3], texture: &Texture, sampler: Sampler) -> u64 {
+    pub(crate) fn key(self, job: &Job, texture: &Texture, sampler: Sampler) -> u64 {
         let coarseness = 12 - u64::from(job.level.get());
         let two_state = u64::from(job.format == OpacityMicromapFormat::TwoState);
         let place = match (job.source, self) {
             (Source::Uniform(_), _) => u64::from(u32::MAX) + 1,
             (Source::Texels, Self::Mesh) => 0,
-            (Source::Texels, Self::Spatial) => place(uvs, texture, sampler).into(),
+            (Source::Texels, Self::Spatial) => place(job.uvs, texture, sampler).into(),
         };
         (coarseness << 1 | two_state) << 33 | place
     }

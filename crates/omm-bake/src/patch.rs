@@ -60,7 +60,7 @@ pub(crate) use self::grid::Spot;
 use self::grid::{Cells, Grid, STRIDE};
 use self::lanes::Edges;
 pub(crate) use self::sixteen::Bits;
-use self::sixteen::Boxes;
+use self::sixteen::{Boxes, PlacedBoxes};
 use self::tile::{Points, Tile, set_corners};
 use crate::classify::{Classification, Node};
 use crate::planes::Planes;
@@ -110,6 +110,7 @@ pub(crate) struct Patch {
     grid: Grid,
     tile: Tile,
     boxes: Boxes,
+    placed: PlacedBoxes,
     /// Corners of the sixteen microtriangles of a tile, and samples of one.
     corners: Points,
     samples: Points,
@@ -144,6 +145,7 @@ impl Patch {
             grid: Grid::default(),
             tile: Tile::default(),
             boxes: Boxes::default(),
+            placed: PlacedBoxes::default(),
             corners: Points::default(),
             samples: Points::default(),
             after: 0,

@@ -55,6 +55,8 @@ pub(crate) enum Source {
 pub(crate) struct Job {
     /// The first triangle of the mesh that it stands for.
     pub(crate) triangle: u32,
+    /// Its texture coordinates.
+    pub(crate) uvs: [[f32; 2]; 3],
     /// How many triangles of the mesh it stands for.
     pub(crate) uses: u32,
     pub(crate) level: SubdivisionLevel,
@@ -101,7 +103,6 @@ struct Key {
 
 /// Finds triangles that are the same.
 struct SameTriangles<'a> {
-    input: &'a BakeInput<'a>,
     options: &'a BakeOptions,
     hasher: DefaultHashBuilder,
     /// Jobs by the coordinates of their first triangle, of which the hash comes first.
@@ -112,7 +113,10 @@ impl SameTriangles<'_> {
     /// The hash of `key`, and the job of a triangle with it.
     fn find(&self, jobs: &[Job], key: &Key) -> (u64, Option<u32>) {
         let hash = self.hasher.hash_one(key.uvs);
-        let same = |&(other, job): &(u64, u32)| other == hash && self.key(jobs[job as usize].triangle as usize) == *key;
+        let same = |&(other, job): &(u64, u32)| {
+            let Job { triangle, uvs, .. } = jobs[job as usize];
+            other == hash && self.key(triangle as usize, uvs) == *key
+        };
         (hash, self.jobs.find(hash, same).map(|&(_, job)| job))
     }
 
@@ -120,12 +124,7 @@ impl SameTriangles<'_> {
         self.jobs.insert_unique(hash, (hash, job), |&(hash, _)| hash);
     }
 
-    /// The key of a triangle of which the indices have been checked.
-    fn key(&self, triangle: usize) -> Key {
-        self.key_of(triangle, corner_uvs(self.input, triangle).unwrap_or_default())
-    }
-
-    fn key_of(&self, triangle: usize, uvs: [[f32; 2]; 3]) -> Key {
+    fn key(&self, triangle: usize, uvs: [[f32; 2]; 3]) -> Key {
         // Both zeros are the same number.
         let bits = |uv: [f32; 2]| uv.map(|coordinate| (coordinate + 0.0).to_bits());
         Key { uvs: uvs.map(bits), own: self.options.override_of(triangle) }
@@ -151,13 +150,13 @@ impl<'a> Schedule<'a> {
             baked_triangles: 0,
             texels: 0,
         };
-        let mut known = SameTriangles { input, options, hasher: DefaultHashBuilder::default(), jobs: HashTable::new() };
+        let mut known = SameTriangles { options, hasher: DefaultHashBuilder::default(), jobs: HashTable::new() };
         let mut unbakeable = BTreeMap::new();
         for triangle in 0..triangles {
             let uvs = corner_uvs(input, triangle)?;
             let mut hash = 0;
             if options.merge {
-                let (of_key, same) = known.find(&schedule.jobs, &known.key_of(triangle, uvs));
+                let (of_key, same) = known.find(&schedule.jobs, &known.key(triangle, uvs));
                 if let Some(job) = same {
                     schedule.jobs[job as usize].uses += 1;
                     schedule.job_of.push(job);
@@ -208,7 +207,7 @@ impl<'a> Schedule<'a> {
                 Source::Uniform(options.unbakeable.state())
             }
         };
-        Job { triangle: triangle as u32, uses: 1, level, format: own.format.unwrap_or(options.format), source }
+        Job { triangle: triangle as u32, uvs, uses: 1, level, format: own.format.unwrap_or(options.format), source }
     }
 
     /// Texels that a triangle covers in all mips, no more than the classifier would look at.

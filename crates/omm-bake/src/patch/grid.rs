@@ -134,16 +134,22 @@ struct Extent {
 }
 
 impl Extent {
-    /// The box around points of the grid.
-    fn around<const N: usize>(steps: [[i64; 2]; 2], points: [[u32; 2]; N]) -> Self {
+    /// The least and the greatest coordinates of points of the grid.
+    fn bounds<const N: usize>(steps: [[i64; 2]; 2], points: [[u32; 2]; N]) -> [[i64; 2]; 2] {
         let (mut least, mut most) = ([i64::MAX; 2], [i64::MIN; 2]);
         for [a, b] in points {
             for axis in 0..2 {
                 let value = i64::from(a) * steps[0][axis] + i64::from(b) * steps[1][axis];
-                least[axis] = least[axis].min(value - WIDEN);
-                most[axis] = most[axis].max(value + WIDEN);
+                least[axis] = least[axis].min(value);
+                most[axis] = most[axis].max(value);
             }
         }
+        [least, most]
+    }
+
+    /// The box between bounds that are 2^`size` times these.
+    fn widened([least, most]: [[i64; 2]; 2], size: u32) -> Self {
+        let (least, most) = (least.map(|at| (at << size) - WIDEN), most.map(|at| (at << size) + WIDEN));
         Self { least: pack(least), most: pack(most) }
     }
 
@@ -180,8 +186,6 @@ pub(super) struct Grid {
     pub(super) parts: [[(u64, u32); 4]; SIZES],
     /// Boxes of nodes, by size and half.
     nodes: [[Extent; 2]; SIZES],
-    /// Boxes of the edges of a microtriangle, by half.
-    edges: [[Extent; 3]; 2],
 }
 
 impl Grid {
@@ -192,19 +196,14 @@ impl Grid {
             return false;
         }
         self.steps = steps;
+        let bounds = [0, 6].map(|order| Extent::bounds(steps, ORDERS[order]));
         for (size, (parts, nodes)) in (0_u32..).zip(self.parts.iter_mut().zip(&mut self.nodes)) {
             let sized = steps.map(|step| step.map(|coordinate| coordinate << size));
             let [a, b] = sized.map(pack);
             let ab = a.wrapping_add(b);
             *parts = [(0, 0), (a, 1 << size), (b, STRIDE << size), (ab, (STRIDE + 1) << size)];
-            *nodes = [0, 6].map(|order| Extent::around(sized, ORDERS[order]));
+            *nodes = bounds.map(|bounds| Extent::widened(bounds, size));
         }
-        self.edges = EDGES.map(|edges| {
-            edges.map(|([a, b], direction)| {
-                let to = [[a + 1, b], [a, b + 1], [a.wrapping_sub(1), b + 1]][direction];
-                Extent::around(steps, [[a, b], to])
-            })
-        });
         true
     }
 
@@ -239,7 +238,9 @@ impl Grid {
     /// The cells that an edge of the microtriangle `spot` can touch.
     #[inline]
     pub(super) fn edge_cells(&self, spot: Spot, edge: usize) -> Cells {
-        self.edges[spot.half()][edge].cells(spot.point)
+        let ([a, b], direction) = EDGES[spot.half()][edge];
+        let to = [[a + 1, b], [a, b + 1], [a.wrapping_sub(1), b + 1]][direction];
+        Extent::widened(Extent::bounds(self.steps, [[a, b], to]), 0).cells(spot.point)
     }
 }
 

@@ -1,31 +1,25 @@
 //! The three edges of a microtriangle at a time, in `f32`; the proof is with [`tile`](super::tile).
 //!
-//! Written in steps for all edges: so the compiler makes vectors of them.
+//! Vectors have a number for each edge; a fourth fills them.
 
-use super::cell::{Cell, greater, lesser};
+use glam::Vec4;
+
+use super::cell::Cell;
 use super::grid::{EDGES, Spot};
 use super::tile::UNIT;
 
 /// 2^-13 texel.
 const WIDEN: f32 = 1.0 / 8192.0;
 
-/// A number for each edge; a fourth fills the vector.
-type Lanes = [f32; 4];
-
-#[inline(always)]
-fn lanes(of: impl Fn(usize) -> f32) -> Lanes {
-    [of(0), of(1), of(2), of(3)]
-}
-
-/// The edges of a microtriangle of each half along an axis.
+/// The edges of a microtriangle along an axis.
 #[derive(Clone, Copy, Debug, Default)]
 struct Axis {
-    /// Where they start, in fixed-point coordinates from the anchor.
-    start: [i32; 4],
-    /// By how much the coordinate changes, in texels.
-    by: Lanes,
+    /// Where they start, from the anchor, in texels.
+    start: Vec4,
+    /// By how much the coordinate changes.
+    by: Vec4,
     /// 1 / `by`; finite, as 0 times infinity is not a number.
-    inverse: Lanes,
+    inverse: Vec4,
 }
 
 /// The edges of microtriangles of a grid, by half and axis.
@@ -37,64 +31,57 @@ impl Edges {
     pub(super) fn set(&mut self, steps: [[i64; 2]; 2]) {
         for (half, axes) in self.0.iter_mut().enumerate() {
             for (axis, edges) in axes.iter_mut().enumerate() {
-                // A step is at most 64 texels.
+                // A step is at most 64 texels: where `f32` does not hold it exactly no tile is as large.
                 let [a, b] = [steps[0][axis] as i32, steps[1][axis] as i32];
-                for k in 0..4 {
-                    let ([p, q], direction) = EDGES[half][k % 3];
-                    edges.start[k] = p as i32 * a + q as i32 * b;
-                    edges.by[k] = [a, b, b - a][direction] as f32 * UNIT;
-                    edges.inverse[k] = lesser(greater(1.0 / edges.by[k], f32::MIN), f32::MAX);
-                }
+                let vector = |of: &dyn Fn([u32; 2], usize) -> i32| {
+                    Vec4::from([0, 1, 2, 0].map(|k| of(EDGES[half][k].0, EDGES[half][k].1) as f32 * UNIT))
+                };
+                edges.start = vector(&|[p, q], _| p as i32 * a + q as i32 * b);
+                edges.by = vector(&|_, direction| [a, b, b - a][direction]);
+                edges.inverse = edges.by.recip().clamp(Vec4::MIN, Vec4::MAX);
             }
         }
     }
 
     /// Those of the microtriangle `spot`, in texels from `base` on, which is in fixed-point coordinates.
     #[inline(always)]
-    pub(super) fn at(&self, spot: Spot, base: [i32; 2]) -> PlacedEdges {
-        let (anchor, axes) = (spot.coordinates(), self.0[spot.half()]);
-        let start = [0, 1].map(|axis| lanes(|k| (anchor[axis] - base[axis] + axes[axis].start[k]) as f32 * UNIT));
-        PlacedEdges { start, axes }
+    pub(super) fn at(&self, spot: Spot, base: [i32; 2]) -> PlacedEdges<'_> {
+        let (anchor, axes) = (spot.coordinates(), &self.0[spot.half()]);
+        let start = |axis: usize| Vec4::splat((anchor[axis] - base[axis]) as f32 * UNIT) + axes[axis].start;
+        PlacedEdges { start: [start(0), start(1)], axes }
     }
 }
 
 /// The edges of one microtriangle.
-pub(super) struct PlacedEdges {
-    start: [Lanes; 2],
-    axes: [Axis; 2],
+pub(super) struct PlacedEdges<'a> {
+    start: [Vec4; 2],
+    axes: &'a [Axis; 2],
 }
 
-impl PlacedEdges {
+impl PlacedEdges<'_> {
     /// The least value, or of the negated ones if not `above`, on the parts of the edges that are in a cell or closer to it than 2^-13;
     /// infinite if there are none.
-    #[inline(never)]
     pub(super) fn least(&self, cell: &Cell<f32>, above: bool) -> f32 {
-        let (mut from, mut to) = ([0.0; 4], [1.0; 4]);
-        for (axis, corner) in [cell.x, cell.y].into_iter().enumerate() {
-            let (start, inverse) = (self.start[axis], self.axes[axis].inverse);
-            let (lower, upper) = (corner - WIDEN, corner + 1.0 + WIDEN);
-            let lower = lanes(|k| (lower - start[k]) * inverse[k]);
-            let upper = lanes(|k| (upper - start[k]) * inverse[k]);
-            from = lanes(|k| greater(from[k], lesser(lower[k], upper[k])));
-            to = lanes(|k| lesser(to[k], greater(lower[k], upper[k])));
+        let corner = [cell.x, cell.y].map(Vec4::splat);
+        let start = [self.start[0] - corner[0], self.start[1] - corner[1]];
+        let (mut from, mut to) = (Vec4::ZERO, Vec4::ONE);
+        for (start, axis) in start.into_iter().zip(self.axes) {
+            let lower = (Vec4::splat(-WIDEN) - start) * axis.inverse;
+            let upper = (Vec4::splat(1.0 + WIDEN) - start) * axis.inverse;
+            from = from.max(lower.min(upper));
+            to = to.min(lower.max(upper));
         }
-        let position = |t: Lanes, axis: usize, corner: f32| {
-            let (start, by) = (self.start[axis], self.axes[axis].by);
-            lanes(|k| start[k] - corner + t[k] * by[k])
-        };
-        let (x0, y0) = (position(from, 0, cell.x), position(from, 1, cell.y));
-        let (x1, y1) = (position(to, 0, cell.x), position(to, 1, cell.y));
-        let [d00, d10, d01, d11] = if above { cell.values } else { cell.values.map(|value| -value) };
-        let (rise_x, rise_y, twist) = (d10 - d00, d01 - d00, (d11 - d10) - (d01 - d00));
-        let value = |x: Lanes, y: Lanes| lanes(|k| d00 + x[k] * rise_x + y[k] * (rise_y + x[k] * twist));
+        let position = |t: Vec4, axis: usize| start[axis] + t * self.axes[axis].by;
+        let (x0, y0, x1, y1) = (position(from, 0), position(from, 1), position(to, 0), position(to, 1));
+        let sign = if above { 1.0 } else { -1.0 };
+        let [d00, d10, d01, d11] = cell.values.map(|value| sign * value);
+        let [d, x, y, twist] = [d00, d10 - d00, d01 - d00, (d11 - d10) - (d01 - d00)].map(Vec4::splat);
+        let value = |px: Vec4, py: Vec4| d + px * x + py * (y + px * twist);
         let (a, b) = (value(x0, y0), value(x1, y1));
-        let bend = lanes(|k| twist * (x1[k] - x0[k]) * (y1[k] - y0[k]));
-        let rise = lanes(|k| b[k] - a[k]);
-        let extreme = lanes(|k| (a[k] + b[k]) * 0.5 - bend[k] * 0.25 - rise[k] * rise[k] / (4.0 * bend[k]));
-        let end = lanes(|k| lesser(a[k], b[k]));
-        let least = lanes(|k| if rise[k].abs() < bend[k] { lesser(end[k], extreme[k]) } else { end[k] });
-        let least = lanes(|k| if from[k] > to[k] { f32::INFINITY } else { least[k] });
-        lesser(lesser(least[0], least[1]), lesser(least[2], least[3]))
+        let (bend, rise, end) = (twist * (x1 - x0) * (y1 - y0), b - a, a.min(b));
+        let extreme = (a + b) * 0.5 - bend * 0.25 - rise * rise / (bend * 4.0);
+        let least = Vec4::select(rise.abs().cmplt(bend), end.min(extreme), end);
+        Vec4::select(from.cmple(to), least, Vec4::INFINITY).min_element()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The sixteen microtriangles two levels below a node.
 
-use super::grid::{Grid, ORDERS, Order, PARTS, Spot};
+use super::grid::{Grid, Order, PARTS, Part, Spot};
 
 /// One of the 16 microtriangles below a node of four segments.
 #[derive(Clone, Copy)]
@@ -8,8 +8,6 @@ pub(super) struct Leaf {
     /// Its anchor, from that of the node.
     anchor: [u8; 2],
     order: Order,
-    /// A bit for each of its corners: the number of that point among [`CORNERS`] of the node's half.
-    pub(super) corners: u16,
 }
 
 /// The points of a node of four segments at the anchor, row by row, the last one twice. Those of the other half are these turned round
@@ -28,64 +26,73 @@ pub(super) const CORNERS: [[i32; 2]; 16] = {
     points
 };
 
-/// The number of a point among [`CORNERS`].
-const fn corner(half: usize, [a, b]: [u32; 2]) -> u32 {
-    let (a, b) = if half == 0 { (a, b) } else { (4 - a, 4 - b) };
-    let (mut row, mut at) = (0, a);
-    while row < b {
-        (row, at) = (row + 1, at + 5 - row);
-    }
-    at
-}
-
 /// The microtriangles two levels below a node of each order, in the order of the curve.
 pub(super) const LEAVES: [[Leaf; 16]; 12] = {
-    let mut leaves = [[Leaf { anchor: [0; 2], order: 0, corners: 0 }; 16]; 12];
+    let mut leaves = [[Leaf { anchor: [0; 2], order: 0 }; 16]; 12];
     let mut k = 0;
     while k < 12 * 16 {
         let first = PARTS[k / 16][k / 4 % 4];
-        let second = PARTS[first.order as usize][k % 4];
-        let anchor = [2 * (first.anchor % 2) + second.anchor % 2, 2 * (first.anchor / 2) + second.anchor / 2];
-        let (mut corners, mut c) = (0, 0);
-        while c < 3 {
-            let [a, b] = ORDERS[second.order as usize][c];
-            corners |= 1 << corner(k / 96, [a + anchor[0] as u32, b + anchor[1] as u32]);
-            c += 1;
-        }
-        leaves[k / 16][k % 16] = Leaf { anchor, order: second.order, corners };
+        let Part { anchor, order } = PARTS[first.order as usize][k % 4];
+        let anchor = [2 * (first.anchor % 2) + anchor % 2, 2 * (first.anchor / 2) + anchor / 2];
+        leaves[k / 16][k % 16] = Leaf { anchor, order };
         k += 1;
     }
     leaves
 };
 
 impl Leaf {
-    /// 0 for the half at the anchor, 1 for the other.
-    pub(super) const fn half(self) -> usize {
-        (self.order >= 6) as usize
-    }
-
-    /// The number of its anchor among [`CORNERS`], in a node at the anchor.
-    pub(super) const fn anchor_corner(self) -> usize {
-        let [a, b] = self.anchor;
-        corner(0, [a as u32, b as u32]) as usize
+    /// Its number: in the half at the anchor those at their own anchors come first, row by row, then the others. In the other half a
+    /// microtriangle has the number of the one that it becomes there if the node is turned.
+    const fn number(self, half: usize) -> usize {
+        let [a, b] = [self.anchor[0] as usize, self.anchor[1] as usize];
+        let (a, b) = if half == 0 { (a, b) } else { (3 - a, 3 - b) };
+        if (self.order < 6) == (half == 0) {
+            4 * b + a - b * b.saturating_sub(1) / 2
+        } else {
+            10 + 3 * b + a - b * b.saturating_sub(1) / 2
+        }
     }
 }
 
-/// For each order and each of the sixteen, in the order of the curve, the number of that microtriangle in a node of order 0, or of the one
-/// that it becomes there if the node is turned.
+/// For each order, the numbers in the order of the curve.
 pub(super) const PLACES: [[u8; 16]; 12] = {
     let mut places = [[0; 16]; 12];
     let mut k = 0;
     while k < 12 * 16 {
-        let mut place = 0;
-        while LEAVES[0][place].corners != LEAVES[k / 16][k % 16].corners {
-            place += 1;
-        }
-        places[k / 16][k % 16] = place as u8;
+        places[k / 16][k % 16] = LEAVES[k / 16][k % 16].number(k / 96) as u8;
         k += 1;
     }
     places
 };
+
+/// A bit for the number of each microtriangle of which all corners have a bit among `points`, those of [`CORNERS`].
+#[inline]
+pub(super) fn all_corners(points: u16) -> u16 {
+    let points = spaced(points);
+    numbered(points & points >> 1 & points >> 5, points >> 1 & points >> 5 & points >> 6)
+}
+
+/// The same for those of which any corner has.
+#[inline]
+pub(super) fn any_corner(points: u16) -> u16 {
+    let points = spaced(points);
+    numbered(points | points >> 1 | points >> 5, points >> 1 | points >> 5 | points >> 6)
+}
+
+/// Five bits for each row, whose points are fewer and fewer.
+#[inline]
+fn spaced(points: u16) -> u32 {
+    let points = u32::from(points);
+    points & 0x1ff | points << 1 & 0x1c00 | points << 3 & 0x1_8000 | points << 6 & 0x10_0000
+}
+
+/// What is given by anchors, five bits for each row, by numbers: for those at their anchors and the others.
+#[inline]
+fn numbered(at_anchors: u32, others: u32) -> u16 {
+    let at_anchors = at_anchors & 0xf | at_anchors >> 1 & 0x70 | at_anchors >> 3 & 0x180 | at_anchors >> 6 & 0x200;
+    let others = others & 0x7 | others >> 2 & 0x18 | others >> 5 & 0x20;
+    (at_anchors | others << 10) as u16
+}
 
 /// The other way round: the place on the curve of each number.
 pub(super) const NUMBERS: [[u8; 16]; 12] = {
@@ -122,7 +129,7 @@ impl Grid {
 mod tests {
     use super::*;
     use crate::patch::Steps;
-    use crate::patch::grid::weights;
+    use crate::patch::grid::{ORDERS, weights};
 
     /// They are the parts of the parts, and their corners have the numbers that they say, for nodes of all orders.
     #[test]
@@ -135,13 +142,18 @@ mod tests {
             for (which, &leaf) in (0..16).zip(node.leaves()) {
                 let (found, expected) = (grid.leaf(node, leaf), grid.part(grid.part(node, 1, which / 4), 0, which % 4));
                 assert_eq!((found.point, found.at, found.order), (expected.point, expected.at, expected.order));
+                // Points of the node, turned if need be.
                 let [a, b] = weights(node.at);
-                let corners = found.weights().map(|[p, q]| corner(node.half(), [p - a, q - b]));
-                assert_eq!(leaf.corners, corners.into_iter().fold(0, |bits, corner| bits | 1 << corner));
-                for (corner, [p, q]) in corners.into_iter().zip(found.weights()) {
-                    let [x, y] = CORNERS[corner as usize].map(|weight| weight as u32);
-                    assert_eq!(if node.half() == 0 { [a + x, b + y] } else { [a + 4 - x, b + 4 - y] }, [p, q]);
+                let turned = |[p, q]: [u32; 2]| [[p - a, q - b], [a + 4 - p, b + 4 - q]][node.half()].map(|k| k as i32);
+                let corners = found.weights().map(|point| CORNERS.iter().position(|&c| c == turned(point)).unwrap());
+                let points = corners.into_iter().fold(0, |bits, corner| bits | 1 << corner);
+                let number = 1 << leaf.number(node.half());
+                assert_eq!(all_corners(points), number);
+                for corner in corners {
+                    assert_eq!(all_corners(points & !(1 << corner)), 0);
+                    assert_eq!(any_corner(1 << corner) & number, number);
                 }
+                assert_eq!(any_corner(!points & 0x7fff) & number, 0);
             }
         }
     }

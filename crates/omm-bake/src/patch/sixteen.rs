@@ -1,27 +1,18 @@
 //! Sixteen microtriangles decided together; the proof is with [`tile`](super::tile).
 //!
-//! While they are being decided they have the numbers that the curve gives them in a node of order 0; those of a node of the other
-//! half are turned round the middle of both.
+//! While they are being decided they have the numbers of [`leaves`](super::leaves).
 
 use super::Patch;
 use super::cell::{Cell, greater, lesser};
 use super::grid::{Cells, FRACTION, Spot, WIDEN};
-use super::leaves::{LEAVES, NUMBERS, PLACES};
+use super::leaves::{NUMBERS, PLACES, all_corners, any_corner};
 use super::tile::{MARGIN, Points, SIDE, Tile, UNIT};
 use crate::classify::Classification;
 use crate::packed::spread;
 use crate::surface::Surface;
 
-/// The numbers of the anchors among the corners of the node, and which half each of the sixteen is.
-const ANCHORS: [(usize, usize); 16] = {
-    let mut anchors = [(0, 0); 16];
-    let mut k = 0;
-    while k < 16 {
-        anchors[k] = (LEAVES[0][k].anchor_corner(), LEAVES[0][k].half());
-        k += 1;
-    }
-    anchors
-};
+/// The anchors of the sixteen among the corners of the node.
+const ANCHORS: [usize; 16] = [0, 1, 2, 3, 5, 6, 7, 9, 10, 12, 0, 1, 2, 5, 6, 9];
 
 /// The boxes of the sixteen, along an axis and by half: fixed-point coordinates from the anchor of their node, widened by 2^-13.
 #[derive(Clone, Debug, Default)]
@@ -41,61 +32,71 @@ impl Boxes {
             let extents = [lower, [a + b - lower[1], a + b - lower[0]]];
             let ([least, upper_least], [most, upper_most]) = (&mut self.least[axis], &mut self.most[axis]);
             for k in 0..16 {
-                let (anchor, half) = ANCHORS[k];
-                let (anchor, extent) = (corners[0][anchor], extents[half]);
+                let extent = extents[usize::from(k >= 10)];
+                let anchor = corners[0][ANCHORS[k]];
                 (least[k], most[k]) = (anchor + extent[0], anchor + extent[1]);
                 (upper_least[k], upper_most[k]) = (4 * (a + b) - most[k], 4 * (a + b) - least[k]);
             }
         }
     }
+}
 
-    /// Those of the node `spot`, of which `tile` has the texels.
+/// Boxes in a tile along an axis: in texels from its first, their first and last cells, and by a bit for each, which touch a cell.
+#[derive(Clone, Debug, Default)]
+struct PlacedAxis {
+    least: [f32; 16],
+    most: [f32; 16],
+    first: [i32; 16],
+    last: [i32; 16],
+    touching: [u16; SIDE + 1],
+}
+
+/// Boxes in a tile.
+#[derive(Clone, Debug, Default)]
+pub(super) struct PlacedBoxes([PlacedAxis; 2]);
+
+impl PlacedBoxes {
+    /// Takes those of the node `spot`, of which `tile` has the texels.
     #[inline(always)]
-    fn at(&self, spot: Spot, tile: &Tile) -> PlacedBoxes {
+    fn set(&mut self, boxes: &Boxes, spot: Spot, tile: &Tile) {
         let half = spot.half();
-        let mut placed = PlacedBoxes::default();
-        for (axis, anchor) in spot.coordinates().into_iter().enumerate() {
-            let (start, least, most) = (anchor - tile.base[axis], &self.least[axis][half], &self.most[axis][half]);
-            let (mut first, mut last) = ([0; 16], [0; 16]);
+        for (axis, (placed, anchor)) in self.0.iter_mut().zip(spot.coordinates()).enumerate() {
+            let start = anchor - tile.base[axis];
+            let (least, most) = (&boxes.least[axis][half], &boxes.most[axis][half]);
             for k in 0..16 {
                 let (least, most) = (start + least[k], start + most[k]);
-                (first[k], last[k]) = (least >> FRACTION, most >> FRACTION);
-                (placed.least[axis][k], placed.most[axis][k]) = (least as f32 * UNIT, most as f32 * UNIT);
+                (placed.first[k], placed.last[k]) = (least >> FRACTION, most >> FRACTION);
+                (placed.least[k], placed.most[k]) = (least as f32 * UNIT, most as f32 * UNIT);
             }
             // A bit is turned where a box starts and after it ends.
-            let touching = &mut placed.touching[axis];
-            for (bit, (first, last)) in first.into_iter().zip(last).enumerate() {
-                touching[first as usize % SIDE] ^= 1 << bit;
-                touching[last as usize % SIDE + 1] ^= 1 << bit;
+            placed.touching = [0; SIDE + 1];
+            for k in 0..16 {
+                placed.touching[placed.first[k] as usize % SIDE] ^= 1 << k;
+                placed.touching[placed.last[k] as usize % SIDE + 1] ^= 1 << k;
             }
             let mut bits = 0;
-            for touching in touching {
+            for touching in &mut placed.touching {
                 bits ^= *touching;
                 *touching = bits;
             }
         }
-        placed
     }
-}
 
-/// Boxes in a tile, along an axis: in texels from its first, and by a bit for each, which touch a cell.
-#[derive(Default)]
-struct PlacedBoxes {
-    least: [[f32; 16]; 2],
-    most: [[f32; 16]; 2],
-    touching: [[u16; SIDE + 1]; 2],
-}
+    /// A bit for each that touches a column, or a row, counted from the first of the tile.
+    #[inline(always)]
+    fn touching(&self, axis: usize, cell: u32) -> u16 {
+        self.0[axis].touching[cell as usize % SIDE]
+    }
 
-impl PlacedBoxes {
     /// Whether all of a cell that box `k` overlaps is `above` or not.
     #[inline(always)]
     fn is_one_sided(&self, k: usize, cell: &Cell<f32>, above: bool) -> bool {
         let k = k % 16;
-        let within = |axis: usize, start: f32| {
-            [greater(self.least[axis][k] - start, 0.0), lesser(self.most[axis][k] - start, 1.0)]
-        };
+        let [x, y] = &self.0;
+        let within =
+            |axis: &PlacedAxis, start: f32| [greater(axis.least[k] - start, 0.0), lesser(axis.most[k] - start, 1.0)];
         let towards = if above { 1.0 } else { -1.0 };
-        cell.least_within(within(0, cell.x), within(1, cell.y), towards) > MARGIN
+        cell.least_within(within(x, cell.x), within(y, cell.y), towards) > MARGIN
     }
 }
 
@@ -111,24 +112,10 @@ impl Sixteen {
     /// By the sides of their corners: where these are the same, it is what the microtriangle is if it has a single side.
     #[inline(always)]
     fn by_corners([above, below]: [u16; 2]) -> Self {
-        const CORNERS: [u16; 16] = {
-            let mut corners = [0; 16];
-            let mut k = 0;
-            while k < 16 {
-                corners[k] = LEAVES[0][k].corners;
-                k += 1;
-            }
-            corners
-        };
-        let bits = |is: fn(u16, u16, u16) -> bool| {
-            (0..)
-                .zip(CORNERS)
-                .fold(0, |bits, (k, corners)| bits | u16::from(is(above & corners, below & corners, corners)) << k)
-        };
         Self {
-            opaque: bits(|above, _, corners| above == corners),
-            transparent: bits(|_, below, corners| below == corners),
-            mixed: bits(|above, below, _| (above != 0) & (below != 0)),
+            opaque: all_corners(above),
+            transparent: all_corners(below),
+            mixed: any_corner(above) & any_corner(below),
         }
     }
 
@@ -222,18 +209,19 @@ impl Patch {
     /// Cells with texels of one side are not looked at: if a microtriangle has points in one of the wrong side, the surface changes sides
     /// between there and a corner, within the microtriangle and in a cell that has texels of both.
     #[inline(always)]
-    fn by_cells(&self, spot: Spot, cells: Cells, above: u16, same: u16) -> Seen {
+    fn by_cells(&mut self, spot: Spot, cells: Cells, above: u16, same: u16) -> Seen {
         let Cells { left, right, top, bottom } = cells;
-        let boxes = self.boxes.at(spot, &self.tile);
+        self.placed.set(&self.boxes, spot, &self.tile);
+        let boxes = &self.placed;
         let mut seen = Seen::default();
         let mut open = same;
         for row in top..=bottom {
-            let in_row = boxes.touching[1][(row - top) as usize % SIDE];
+            let in_row = boxes.touching(1, row - top);
             let mut columns = self.window.mixed_cells(left, right, row);
             while columns != 0 {
                 let column = columns.trailing_zeros();
                 columns &= columns - 1;
-                let touching = open & in_row & boxes.touching[0][(column - left) as usize % SIDE];
+                let touching = open & in_row & boxes.touching(0, column - left);
                 if touching == 0 {
                     continue;
                 }
@@ -250,7 +238,7 @@ impl Patch {
         seen
     }
 
-    /// One of the sixteen below `spot` by its number in a node of order 0.
+    /// One of the sixteen below `spot` by its number.
     #[inline]
     fn leaf_at(&self, spot: Spot, number: usize) -> Spot {
         self.one_of_sixteen(spot, NUMBERS[usize::from(spot.order) % 12][number % 16].into())
