@@ -62,6 +62,8 @@ pub enum BlockDecoding {
     /// As an NVIDIA H200 was seen to decode, to the last bit. Signed formats and colours, which were not measured, are decoded by the
     /// specification.
     Nvidia,
+    /// Both: a bake of such a texture is sound for devices of either kind. States that only one of them has are unknown.
+    All,
 }
 
 /// What is read of an image.

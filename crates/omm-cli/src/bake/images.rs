@@ -38,6 +38,8 @@ enum BlockDecodingArgument {
     Specification,
     /// As measured on NVIDIA devices.
     Nvidia,
+    /// Both: known is what both make of the file.
+    All,
 }
 
 impl Images {
@@ -52,6 +54,7 @@ impl Images {
         let block_decoding = match self.block_decoding {
             BlockDecodingArgument::Specification => BlockDecoding::Specification,
             BlockDecodingArgument::Nvidia => BlockDecoding::Nvidia,
+            BlockDecodingArgument::All => BlockDecoding::All,
         };
         let last_mip = match mips {
             Some(MipChoice::Range { last, .. }) => last,
