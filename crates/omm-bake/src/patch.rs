@@ -1,8 +1,10 @@
 //! A part of a mesh triangle that sees no more than 64 x 64 texels, decided in a frame of its own.
 //!
-//! Coordinates are texels from the first of a [`Window`]. Corners of microtriangles are points of a [`grid`], so that what
-//! microtriangles share, the signs at their corners and along their edges, is found once and kept. Whatever is decided here is
-//! certain; the rest is left to [`Node::scan`](crate::classify::Node), so the answers are those of `classify`.
+//! Coordinates are texels from the first of a [`Window`]. Corners of microtriangles are points of a [`grid`]. Where it can be,
+//! [`sixteen`] of them are decided at a time in `f32`, with the proof of [`tile`]. What that leaves open, and larger ones, are
+//! decided alone in `f64`, where what microtriangles share, the signs at their corners and along their edges, is found once and
+//! kept. Whatever is decided here is certain; the rest is left to [`Node::scan`](crate::classify::Node), so the answers are those
+//! of `classify`.
 //!
 //! # Why a decision is certain
 //!

@@ -175,8 +175,8 @@ impl Seen {
 }
 
 impl Patch {
-    /// What is certain of the microtriangles two levels below `spot`, two bits for each in the order of the curve: 0 transparent, 1 opaque, 2 mixed,
-    /// 3 not known. `None` if they see too many texels. The tile stays there.
+    /// What is certain of the microtriangles two levels below `spot`, two bits for each in the order of the curve: 0 transparent,
+    /// 1 opaque, 2 mixed, 3 not known. `None` if they see too many texels. The tile stays there.
     pub(crate) fn sixteen(&mut self, surface: &Surface<'_>, spot: Spot) -> Option<u32> {
         let cells = self.grid.cells(spot, 2);
         if !self.linear || !self.tile.load(surface, &self.window, cells) {

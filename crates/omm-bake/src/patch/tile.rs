@@ -2,33 +2,36 @@
 //!
 //! # Why a decision is certain
 //!
-//! **Places.** Fixed-point coordinates of points of the grid are off by less than 2^-13 texel, as boxes are (see [`Patch`](super::Patch)), and a
-//! sample of [`estimate`](super::estimate) by 2^-20 more for its own rounding. From a tile's first cell on they have no more than
-//! 24 bits, so `f32` holds them exactly.
+//! **Places.** Fixed-point coordinates of points of the grid are off by less than 2^-13 texel, as boxes are (see
+//! [`Patch`](super::Patch)), and a sample of [`estimate`](super::estimate) by 2^-20 more for its own rounding. From a tile's
+//! first cell on they have no more than 24 bits, so `f32` holds them exactly.
 //!
-//! **Values.** Texels are taken less the cutoff and divided by the surface's *reach*, so all values are within -1..=1, the surface is
-//! continuous, and it changes by no more than 2 for a texel along an axis: a value is off by less than 2^-11 + 2^-18 for its place.
-//! The cutoff of bytes is below 2^8 and its `f32` off by no more than 2^-17; where bytes are on both sides of it the reach is at least
-//! a half: a texel is off by less than 2^-15. The polynomial makes some ten roundings of numbers up to 4, of at most 2^-22 each.
-//! Together that is less than 2^-10. A value further from 0 than [`MARGIN`] = 2^-10 has the sign that it has in real arithmetic.
+//! **Values.** Texels are taken less the cutoff and divided by the surface's *reach*, so all values are within -1..=1, the
+//! surface is continuous, and it changes by no more than 2 for a texel along an axis: a value is off by less than 2^-11 + 2^-18
+//! for its place. The cutoff of bytes is below 2^8 and its `f32` off by no more than 2^-17; where bytes are on both sides of it
+//! the reach is at least a half: a texel is off by less than 2^-15. The polynomial makes some ten roundings of numbers up to 4,
+//! of at most 2^-22 each. Together that is less than 2^-10. A value further from 0 than [`MARGIN`] = 2^-10 has the sign that it
+//! has in real arithmetic.
 //!
-//! **Cells of one side.** Whether a texel is above the cutoff is known exactly, and a cell's values lie between those of its texels. So a cell
-//! all of whose texels are on one side is on that side: only the others that a microtriangle's box overlaps are looked at.
+//! **Cells of one side.** Whether a texel is above the cutoff is known exactly, and a cell's values lie between those of its
+//! texels. So a cell all of whose texels are on one side is on that side: only the others that a microtriangle's box overlaps are
+//! looked at.
 //!
-//! **Boxes in cells.** As for a [`Patch`](super::Patch): a bilinear surface takes its extremes over the part of a box that is in a cell at its
-//! corners, of which only the value is rounded. What has all of these on one side with certainty is on that side.
+//! **Boxes in cells.** As for a [`Patch`](super::Patch): a bilinear surface takes its extremes over the part of a box that is in
+//! a cell at its corners, of which only the value is rounded. What has all of these on one side with certainty is on that side.
 //!
-//! **Edges.** Where a box is not, the cell is looked at once more, along the edges. An edge is cut where it is 2^-13 outside of the cell,
-//! as far as an edge in real arithmetic that is in the cell can be away from the one at hand. The t of a cut is off by less than
-//! 2^-22, which moves the point by less than 2^-18, as does its own rounding. There the cell's polynomial differs by less than 2^-11 from what it
-//! is at the point in real arithmetic; the turning point of a part is off by no more than its ends, and by a quarter of what its bend is off by,
-//! which is less than 2^-15. So a value above [`MARGIN`] is above in real arithmetic. On the other side the cell's polynomial is not
-//! the surface outside of the cell: from the point at hand to the cell it changes by less than 2^-10.9, and the surface from there to
-//! the point in real arithmetic by less than 2^-10.3. So what is below -2 [`MARGIN`] is below.
+//! **Edges.** Where a box is not, the cell is looked at once more, along the edges. An edge is cut where it is 2^-13 outside of
+//! the cell, as far as an edge in real arithmetic that is in the cell can be away from the one at hand. The t of a cut is off by
+//! less than 2^-22, which moves the point by less than 2^-18, as does its own rounding. There the cell's polynomial differs by
+//! less than 2^-11 from what it is at the point in real arithmetic; the turning point of a part is off by no more than its ends,
+//! and by a quarter of what its bend is off by, which is less than 2^-15. So a value above [`MARGIN`] is above in real
+//! arithmetic. On the other side the cell's polynomial is not the surface outside of the cell: from the point at hand to the cell
+//! it changes by less than 2^-10.9, and the surface from there to the point in real arithmetic by less than 2^-10.3. So what is
+//! below -2 [`MARGIN`] is below.
 //!
-//! **Conclusion.** If all three corners are on one side, no edge has points on the other in a cell whose part of the box has, and no texel
-//! centre that is on the other side is inside (see [`Patch`](super::Patch)), the microtriangle is on that side: a bilinear surface takes its
-//! extremes over the part of a triangle in a cell on the edges or at texel centres.
+//! **Conclusion.** If all three corners are on one side, no edge has points on the other in a cell whose part of the box has, and
+//! no texel centre that is on the other side is inside (see [`Patch`](super::Patch)), the microtriangle is on that side: a
+//! bilinear surface takes its extremes over the part of a triangle in a cell on the edges or at texel centres.
 
 use super::cell::Cell;
 use super::grid::{Cells, FRACTION, Spot};
