@@ -11,6 +11,10 @@
 //! - a point exactly on an edge counts as moved by (ε, ε²). So of two triangles with a common edge that lie on both
 //!   sides of it exactly one is hit, and likewise around a common vertex.
 
+mod packet;
+
+pub(crate) use packet::{Packet, PacketRay};
+
 /// A ray in the space of a bottom-level structure, made ready for triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleRay {
@@ -36,6 +40,18 @@ enum Order {
 }
 
 impl Order {
+    /// The axes in their new order.
+    const fn axes(self) -> [usize; 3] {
+        match self {
+            Self::Yzx => [1, 2, 0],
+            Self::Zyx => [2, 1, 0],
+            Self::Zxy => [2, 0, 1],
+            Self::Xzy => [0, 2, 1],
+            Self::Xyz => [0, 1, 2],
+            Self::Yxz => [1, 0, 2],
+        }
+    }
+
     fn apply(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Yzx => [y, z, x],
