@@ -133,62 +133,73 @@ impl Walk {
 
     /// The next leaf whose box the ray can meet with a `t` of at most `limit`, nearer ones first by and large; `None`
     /// once no more than `floor` is open. What is open above that belongs to `bvh`.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn next(&mut self, bvh: &Bvh, ray: &BoxRay, limit: f32, floor: usize) -> Option<usize> {
         let bound = ray.bound(limit);
-        'walk: while self.depth > floor {
-            self.depth -= 1;
-            let Some(&(mut node, at)) = self.open.get(self.depth) else { continue };
+        let mut depth = self.depth;
+        let leaf = 'walk: loop {
+            let Some(last) = depth.checked_sub(1).filter(|&last| last >= floor) else { break None };
+            depth = last;
+            let Some(&(mut node, at)) = self.open.get(depth) else { break None };
             if at > bound {
                 continue;
             }
             loop {
                 if let Some(leaf) = node.as_leaf() {
-                    return Some(leaf);
+                    break 'walk Some(leaf);
                 }
                 let Some(quad) = bvh.quads.get(node.0 as usize >> 1) else { continue 'walk };
                 let (met, near) = ray.enter(&quad.planes, bound);
-                match self.descend(quad, met, near) {
-                    Some(nearest) => node = nearest,
-                    None => continue 'walk,
+                if met == 0 {
+                    continue 'walk;
                 }
+                let others = met & (met - 1);
+                node = if others == 0 { quad.node(met) } else { self.descend(&mut depth, quad, met, near) };
             }
-        }
-        None
+        };
+        self.depth = depth;
+        leaf
     }
 
-    /// The nearest of the nodes that are met, if there is one; the others are opened, so that the next nearest comes first.
+    /// The nearest of several nodes that are met. The others are opened, so that the next nearest comes first.
     #[inline(always)]
-    fn descend(&mut self, quad: &Quad, met: u32, near: Vec4) -> Option<Node> {
+    fn descend(&mut self, depth: &mut usize, quad: &Quad, met: u32, near: Vec4) -> Node {
         let near = near.to_array();
-        let entry = |met: u32| {
-            let side = met.trailing_zeros() as usize & 3;
-            (quad.nodes[side], near[side])
+        let entry = |met: u32| (quad.node(met), near[met.trailing_zeros() as usize & 3]);
+        let mut left = met & met.wrapping_sub(1);
+        let (mut nearest, mut other) = (entry(met), entry(left));
+        // The builder's limit leaves room for three entries a level.
+        let Some(open) = self.open.get_mut(*depth..).and_then(|open| open.first_chunk_mut::<3>()) else {
+            return nearest.0;
         };
-        if met == 0 {
-            return None;
-        }
-        let mut nearest = entry(met);
-        let mut left = met & (met - 1);
-        let mut others = 0;
-        while left != 0 {
-            let mut other = entry(left);
-            left &= left - 1;
+        let mut count = 0;
+        loop {
             if other.1 < nearest.1 {
                 std::mem::swap(&mut other, &mut nearest);
             }
-            // The builder's limit leaves room for three entries a level.
-            let Some(open) = self.open.get_mut(self.depth..=self.depth + others) else { break };
-            let mut at = others;
+            let mut at = count;
             while at > 0 && open[at - 1].1 < other.1 {
                 open[at] = open[at - 1];
                 at -= 1;
             }
             open[at] = other;
-            others += 1;
+            count += 1;
+            left &= left.wrapping_sub(1);
+            if left == 0 || count == 3 {
+                break;
+            }
+            other = entry(left);
         }
-        self.depth += others;
-        Some(nearest.0)
+        *depth += count;
+        nearest.0
+    }
+}
+
+impl Quad {
+    /// The node of the lowest bit.
+    #[inline(always)]
+    const fn node(&self, met: u32) -> Node {
+        self.nodes[met.trailing_zeros() as usize & 3]
     }
 }
 

@@ -125,17 +125,10 @@ impl Scene {
     ///
     /// # Errors
     /// The first object that cannot be read, is not of the kind wanted, lies in the bytes of another, or
-    /// contradicts another; with the way to it. What is allocated is a small multiple of the bytes read.
+    /// contradicts another; with the way to it. What is allocated is a small multiple of the bytes read, and some 20
+    /// megabytes at most for a hierarchy that tells overlapping instances apart.
     pub fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Self, LoadError> {
         load::load(view, tlas)
-    }
-
-    /// The way into an instance at a time, if there is one.
-    pub(crate) fn to_object(&self, at: u32, instance: &Instance, time: f32) -> Option<WorldToObject> {
-        match instance.to_object {
-            Some(known) => Some(known),
-            None => WorldToObject::new(&self.placements.get(at as usize)?.at(time)),
-        }
     }
 
     /// The same scene on a device that breaks ties between microtriangles in another way than

@@ -2,11 +2,11 @@
 
 use std::ops::{ControlFlow, Range};
 
-use omm_model::opacity::{CandidateOpacity, OpacityResult, OpacityState, RayOpacity};
+use omm_model::opacity::{CandidateOpacity, InstanceOpacity, OpacityResult, OpacityState, RayOpacity};
 
 use crate::bvh::{BoxRay, Walk};
 use crate::counters::Counters;
-use crate::flags::RayFlags;
+use crate::flags::{self, Facing, RayFlags};
 use crate::hit::{Candidate, Hit, HitKind};
 use crate::placement::moved;
 use crate::ray::{Ray, TraceOptions};
@@ -161,7 +161,7 @@ impl<'s> Search<'s> {
         if scene.instances.get(at as usize).is_none_or(|instance| instance.mask & visible == 0) {
             return false;
         }
-        let Some(visit) = Visit::new(scene, at, ray, options) else { return false };
+        let Some(visit) = Visit::new(scene, at, ray) else { return false };
         self.visit = Some(visit);
         self.object_box_ray = None;
         true
@@ -182,7 +182,7 @@ impl<'s> Search<'s> {
                         &at_time
                     }
                 };
-                let Some(hit) = visit.triangle_ray.intersect(vertices) else { continue };
+                let Some(hit) = visit.triangle_ray().intersect(vertices) else { continue };
                 if let ControlFlow::Break(offer) = found.triangle(visit, triangle, hit, counters) {
                     return offer;
                 }
@@ -241,7 +241,8 @@ impl Found<'_> {
         if !(hit.t > self.ray.t_min() && hit.t <= self.limit() && hit.t < self.ray.t_max()) {
             return ControlFlow::Continue(());
         }
-        let front = visit.facing.is_front(hit.front);
+        let facing = Facing::new(self.options.flags, visit.instance.flags);
+        let front = facing.is_front(hit.front);
         let mut candidate = Candidate {
             t: hit.t,
             barycentrics: hit.barycentrics,
@@ -257,18 +258,19 @@ impl Found<'_> {
             return ControlFlow::Continue(());
         }
         counters.candidates += 1;
-        if visit.facing.culls(front) {
+        if facing.culls(front) {
             counters.culled_by_facing += 1;
             return ControlFlow::Continue(());
         }
         let Some(geometry) = visit.blas.geometries.get(triangle.geometry as usize) else {
             return ControlFlow::Continue(());
         };
-        if self.options.micromaps && !visit.opacity.disable_micromaps {
+        let instance = flags::instance_opacity(visit.instance.flags);
+        if self.options.micromaps && !instance.disable_micromaps {
             let micromap = geometry.micromap.and_then(|micromap| self.scene.micromaps.get(micromap as usize));
             candidate.micromap = triangle.opacity.state(micromap, hit.barycentrics, self.scene.tie_break);
         }
-        match self.resolve(visit, candidate.micromap, geometry.opaque) {
+        match self.resolve(instance, candidate.micromap, geometry.opaque) {
             OpacityResult::Ignored => counters.ignored += 1,
             OpacityResult::Culled => counters.culled_by_opacity += 1,
             OpacityResult::NonOpaque => return ControlFlow::Break(Some(candidate)),
@@ -286,7 +288,8 @@ impl Found<'_> {
     /// The box as it is offered, unless a flag culls it.
     fn aabb(&self, visit: &Visit<'_>, aabb: &Aabb, counters: &mut Counters) -> Option<AabbCandidate> {
         let geometry = visit.blas.geometries.get(aabb.geometry as usize)?;
-        let result = self.resolve(visit, None, geometry.opaque);
+        let instance = flags::instance_opacity(visit.instance.flags);
+        let result = self.resolve(instance, None, geometry.opaque);
         if !matches!(result, OpacityResult::Opaque | OpacityResult::NonOpaque) {
             counters.culled_aabbs += 1;
             return None;
@@ -308,8 +311,13 @@ impl Found<'_> {
         })
     }
 
-    fn resolve(&self, visit: &Visit<'_>, micromap: Option<OpacityState>, geometry_opaque: bool) -> OpacityResult {
-        CandidateOpacity { micromap, geometry_opaque, instance: visit.opacity, ray: self.opacity }.resolve()
+    fn resolve(
+        &self,
+        instance: InstanceOpacity,
+        micromap: Option<OpacityState>,
+        geometry_opaque: bool,
+    ) -> OpacityResult {
+        CandidateOpacity { micromap, geometry_opaque, instance, ray: self.opacity }.resolve()
     }
 
     /// The hit that is reported for a box as a candidate, if it lies in the range that is left.

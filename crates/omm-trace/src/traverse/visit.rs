@@ -1,11 +1,9 @@
 //! What a search knows while it is inside an instance.
 
-use omm_model::opacity::InstanceOpacity;
-
 use crate::bvh::BoxRay;
-use crate::flags::{self, Facing};
-use crate::ray::{Ray, TraceOptions};
+use crate::ray::Ray;
 use crate::scene::{Blas, Instance, Scene};
+use crate::transform::WorldToObject;
 use crate::triangle::{PacketRay, TriangleRay};
 
 /// The ray in the space of an instance.
@@ -17,10 +15,9 @@ pub(super) struct Visit<'s> {
     pub(super) blas: &'s Blas,
     pub(super) origin: [f64; 3],
     pub(super) direction: [f64; 3],
-    pub(super) opacity: InstanceOpacity,
-    pub(super) facing: Facing,
-    pub(super) triangle_ray: TriangleRay,
     packet_ray: PacketRay,
+    /// Once it is needed.
+    triangle_ray: Option<TriangleRay>,
 }
 
 /// Slots of a leaf that are still to be tried.
@@ -34,22 +31,26 @@ pub(super) struct Pending {
 impl<'s> Visit<'s> {
     /// The visit of an instance; `None` if there is no way into it at the time of the ray.
     #[inline]
-    pub(super) fn new(scene: &'s Scene, at: u32, ray: &Ray, options: &TraceOptions) -> Option<Self> {
+    pub(super) fn new(scene: &'s Scene, at: u32, ray: &Ray) -> Option<Self> {
         let instance = scene.instances.get(at as usize)?;
         let blas = scene.blases.get(instance.blas as usize)?;
-        let to_object = scene.to_object(at, instance, ray.time())?;
+        let at_time;
+        let to_object = match &instance.to_object {
+            Some(known) => known,
+            None => {
+                at_time = WorldToObject::new(&scene.placements.get(at as usize)?.at(ray.time()))?;
+                &at_time
+            }
+        };
         let (origin, direction) = (to_object.point(ray.origin()), to_object.direction(ray.direction()));
-        let triangle_ray = TriangleRay::new(origin, direction);
         Some(Self {
             at,
             instance,
             blas,
             origin,
             direction,
-            opacity: flags::instance_opacity(instance.flags),
-            facing: Facing::new(options.flags, instance.flags),
-            triangle_ray,
-            packet_ray: PacketRay::new(&triangle_ray, blas.largest),
+            packet_ray: PacketRay::new(origin, direction, blas.largest),
+            triangle_ray: None,
         })
     }
 
@@ -61,6 +62,12 @@ impl<'s> Visit<'s> {
     /// The ray among the boxes of the instance.
     pub(super) fn box_ray(&self, ray: &Ray) -> BoxRay {
         BoxRay::new(&self.blas.triangle_bvh, self.origin, self.direction, ray.t_min())
+    }
+
+    /// The ray among the triangles of the instance.
+    #[inline]
+    pub(super) fn triangle_ray(&mut self) -> &TriangleRay {
+        self.triangle_ray.get_or_insert_with(|| TriangleRay::new(self.origin, self.direction))
     }
 
     /// The triangles of a leaf that the ray may meet.

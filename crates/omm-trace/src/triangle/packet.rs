@@ -7,7 +7,7 @@
 
 use glam::Vec4;
 
-use super::TriangleRay;
+use super::Order;
 
 /// The vertices of up to four triangles: by axis, then by vertex.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub(crate) struct Packet {
     vertices: [[Vec4; 3]; 3],
 }
 
-/// A [`TriangleRay`], rounded.
+/// A [`TriangleRay`](super::TriangleRay), rounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PacketRay {
     /// How coordinates are permuted.
@@ -43,24 +43,29 @@ impl Packet {
 }
 
 impl PacketRay {
-    /// The ray, for packets without a coordinate larger than `largest`.
-    pub(crate) fn new(ray: &TriangleRay, largest: f64) -> Self {
-        let distance = ray.origin.into_iter().fold(0.0, |distance: f64, x| distance.max(x.abs()));
+    /// The ray through `origin` along `direction`, which is not zero, for packets without a coordinate larger than
+    /// `largest`.
+    #[inline]
+    pub(crate) fn new(origin: [f64; 3], direction: [f64; 3], largest: f64) -> Self {
+        let distance = origin.into_iter().fold(0.0, |distance: f64, x| distance.max(x.abs()));
         // Where a product of coordinates could overflow this does; what underflows is less than the last term.
         let eight = 8.0 * (distance + largest) as f32;
         let room = eight * eight * (1.0 / (1_u32 << 23) as f32) + f32::MIN_POSITIVE;
+        let axes = Order::of(direction).axes();
+        let [a, b, main] = axes.map(|axis| direction[axis]);
+        let scale = 1.0 / main;
         Self {
-            axes: ray.order.axes(),
-            origin: ray.order.apply(ray.origin).map(|x| Vec4::splat(x as f32)),
-            shear: ray.shear.map(|x| Vec4::splat(x as f32)),
+            axes,
+            origin: axes.map(|axis| Vec4::splat(origin[axis] as f32)),
+            shear: [a, b].map(|x| Vec4::splat((x * scale) as f32)),
             room: Vec4::splat(room),
         }
     }
 
-    /// A bit for each triangle that [`TriangleRay::intersect`] may find a hit with.
+    /// A bit for each triangle that [`TriangleRay::intersect`](super::TriangleRay::intersect) may find a hit with.
     #[inline]
     pub(crate) fn may_meet(&self, packet: &Packet) -> u32 {
-        let [a, b, main] = self.axes.map(|axis| &packet.vertices[axis % 3]);
+        let [a, b, main] = self.axes.map(|axis| &packet.vertices[axis]);
         let [p, q, r] = [0, 1, 2].map(|vertex| {
             let along = main[vertex] - self.origin[2];
             let across =
