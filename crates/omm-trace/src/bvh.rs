@@ -29,6 +29,9 @@ pub(crate) use slab::BoxRay;
 /// What a walk through one tree can have to remember at most; the builder keeps to it.
 const MAX_OPEN: usize = 64;
 
+/// The room of a walk: for two trees, and such that three nodes have room where one has.
+const ROOM: usize = 2 * MAX_OPEN + 2;
+
 /// A tree over boxes, which lie in its leaves in the order of [`Bvh::in_order`]. Their
 /// positions there are slots.
 #[derive(Clone, Debug, Default)]
@@ -50,18 +53,20 @@ pub(crate) struct Node(u32);
 /// Four boxes in the unit of a tree: for each axis the lower ends, then the upper ends.
 pub(crate) type Planes = [[Vec4; 2]; 3];
 
-/// Up to four nodes and their boxes. Where there are less, boxes that no ray meets stand before leaves that are none.
+/// Up to four nodes and their boxes.
 #[derive(Clone, Copy, Debug)]
 struct Quad {
     planes: Planes,
     nodes: [Node; 4],
+    /// A bit for each node that there is.
+    present: u32,
 }
 
 /// What is still to be visited, of one tree and then of another that was begun before the first was done.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Walk {
     /// Nodes, and where the ray enters each.
-    open: [(Node, f32); 2 * MAX_OPEN],
+    open: [(Node, f32); ROOM],
     depth: usize,
 }
 
@@ -107,7 +112,7 @@ impl Bvh {
 impl Walk {
     /// A walk that is over.
     pub(crate) const fn new() -> Self {
-        Self { open: [(Node::NONE, 0.0); 2 * MAX_OPEN], depth: 0 }
+        Self { open: [(Node::NONE, 0.0); ROOM], depth: 0 }
     }
 
     /// How much is open: what [`next`](Self::next) leaves alone if it is told so.
@@ -133,6 +138,7 @@ impl Walk {
 
     /// The next leaf whose box the ray can meet with a `t` of at most `limit`, nearer ones first by and large; `None`
     /// once no more than `floor` is open. What is open above that belongs to `bvh`.
+    // It is called for the scene and, seldom, for instances: in line it would crowd out the test of triangles there.
     #[inline(never)]
     pub(crate) fn next(&mut self, bvh: &Bvh, ray: &BoxRay, limit: f32, floor: usize) -> Option<usize> {
         let bound = ray.bound(limit);
@@ -150,6 +156,7 @@ impl Walk {
                 }
                 let Some(quad) = bvh.quads.get(node.0 as usize >> 1) else { continue 'walk };
                 let (met, near) = ray.enter(&quad.planes, bound);
+                let met = met & quad.present;
                 if met == 0 {
                     continue 'walk;
                 }
@@ -168,7 +175,7 @@ impl Walk {
         let entry = |met: u32| (quad.node(met), near[met.trailing_zeros() as usize & 3]);
         let mut left = met & met.wrapping_sub(1);
         let (mut nearest, mut other) = (entry(met), entry(left));
-        // The builder's limit leaves room for three entries a level.
+        // The builder's limit leaves room for all of them.
         let Some(open) = self.open.get_mut(*depth..).and_then(|open| open.first_chunk_mut::<3>()) else {
             return nearest.0;
         };

@@ -131,7 +131,8 @@ impl Bvh {
         let room = room.checked_sub(below.len().saturating_sub(1))?;
         let index = self.quads.len();
         (index < boxes.len()).then_some(())?;
-        let mut quad = Quad { planes: [[Vec4::ZERO; 2]; 3], nodes: [Node::NONE; 4] };
+        let present = (1 << below.len()) - 1;
+        let mut quad = Quad { planes: [[Vec4::ZERO; 2]; 3], nodes: [Node::NONE; 4], present };
         let mut bounds = [None; 4];
         self.quads.push(quad);
         for ((branch, node), bounds) in below.into_iter().zip(&mut quad.nodes).zip(&mut bounds) {
@@ -160,7 +161,7 @@ impl Shape {
     }
 }
 
-/// Four boxes in a tree's unit, grown and rounded outwards; no ray meets those that are missing.
+/// Four boxes in a tree's unit, grown and rounded outwards; those that are missing are nowhere.
 fn planes(scale: f64, boxes: [Option<Bounds>; 4]) -> Planes {
     std::array::from_fn(|axis| {
         let low = |bounds: Bounds| round_down(bounds.low[axis] * scale - MARGIN);

@@ -128,6 +128,9 @@ fn huge_and_tiny_numbers_lose_nothing() {
             let found = visited(&bvh, [-2.0 * unit, unit, 0.0], [direction, 0.0, 0.0], 0.0..f32::INFINITY);
             assert_eq!(found, [0, 1, 2, 3], "unit {unit:e} direction {direction:e}");
         }
+        // Further away than the numbers of the tree reach every box is met, and no other.
+        let beyond = visited(&bvh, [-1e30 * unit, 1e36, 0.0], [1.0, 0.0, 0.0], 0.0..f32::INFINITY);
+        assert!(beyond == [0, 1, 2, 3] || unit > 1e-3, "unit {unit:e}: {beyond:?}");
         let far = visited(&bvh, [-1e30 * unit, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0..f32::INFINITY);
         assert_eq!(far, [0, 1, 2, 3]);
         // Beyond the numbers everything may be met.
