@@ -101,7 +101,7 @@ impl MaskedPrimitive {
 
 /// Reads the alpha-masked primitives of the glTF file at `path`, with the buffers and images that it names.
 ///
-/// Of each image the mip level and the channel of `options` are read. The channel that glTF itself masks by is alpha.
+/// Of each image the mip levels and the channel of `options` are read. The channel that glTF itself masks by is alpha.
 ///
 /// # Errors
 /// [`GltfError`] names the file and the byte or the JSON path at which something is missing, out of range or not known, and says

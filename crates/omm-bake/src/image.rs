@@ -62,6 +62,8 @@ pub enum BlockDecoding {
     /// As an NVIDIA H200 was seen to decode, to the last bit. Signed formats and colours, which were not measured, are decoded by the
     /// specification.
     Nvidia,
+    /// Both: a bake of such a texture is sound for devices of either kind. States that only one of them has are unknown.
+    All,
 }
 
 /// What is read of an image.
@@ -69,8 +71,9 @@ pub enum BlockDecoding {
 pub struct ImageOptions {
     /// Which channel.
     pub channel: Channel,
-    /// Which mip level; 0 is the largest. Only DDS and KTX2 files have others.
-    pub mip_level: u32,
+    /// The last mip level that the texture gets; it has all from 0, the largest, to this one. Only DDS and KTX2 files have others
+    /// than 0.
+    pub last_mip: u32,
     /// As which device blocks are decoded.
     pub block_decoding: BlockDecoding,
 }
@@ -96,15 +99,24 @@ pub const MAX_TEXELS: u64 = 1 << 28;
 /// # Ok::<(), image::ImageError>(())
 /// ```
 pub fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, ImageError> {
+    let texture = read_level(bytes, options, 0)?;
+    let mips = (1..=options.last_mip).map(|level| read_level(bytes, options, level)).collect::<Result<_, _>>()?;
+    Ok(texture.with_mips(mips)?)
+}
+
+/// One mip level by itself.
+fn read_level(bytes: &[u8], options: ImageOptions, level: u32) -> Result<Texture, ImageError> {
     match bytes {
-        [b'D', b'D', b'S', b' ', ..] => dds::read(bytes, options),
-        [0xab, b'K', b'T', b'X', b' ', b'2', b'0', ..] => ktx::read(bytes, options),
-        _ => raster::read(bytes, options),
+        [b'D', b'D', b'S', b' ', ..] => dds::read(bytes, options, level),
+        [0xab, b'K', b'T', b'X', b' ', b'2', b'0', ..] => ktx::read(bytes, options, level),
+        _ => raster::read(bytes, options, level),
     }
 }
 
 /// Width and height of a mip level, with a size that may be held in memory.
-fn level_size(width: u32, height: u32, level: u32, levels: u32) -> Result<(u32, u32), ImageError> {
+fn level_size(width: u32, height: u32, level: u32, claimed: u32) -> Result<(u32, u32), ImageError> {
+    // Behind the level of a single texel there is none, whatever the file claims.
+    let levels = claimed.min(width.max(height).checked_ilog2().unwrap_or(0) + 1);
     if level >= levels {
         return Err(ImageError::MipLevel { level, levels });
     }

@@ -28,7 +28,7 @@ pub enum MipChoice {
 }
 
 impl MipChoice {
-    /// The mips of `texture` that are read, the finest first. Never empty.
+    /// The mips of `texture` that are read, the finest first, each with its other readings behind it. Never empty.
     pub(crate) fn of(self, texture: &Texture) -> Result<Vec<&Texture>, BakeError> {
         let count = texture.mip_count();
         let (first, last) = match self {
@@ -38,7 +38,8 @@ impl MipChoice {
         if first > last || last >= count {
             return Err(BakeError::MipRange { first, last, count });
         }
-        Ok((first..=last).filter_map(|mip| texture.mip(mip)).collect())
+        let mips = (first..=last).filter_map(|mip| texture.mip(mip));
+        Ok(mips.flat_map(|mip| std::iter::once(mip).chain(mip.readings())).collect())
     }
 }
 
@@ -54,6 +55,12 @@ mod tests {
         assert_eq!(widths(MipChoice::All), Ok(vec![5, 2, 1]));
         assert_eq!(widths(MipChoice::Range { first: 1, last: 1 }), Ok(vec![2]));
         assert_eq!(widths(MipChoice::Range { first: 0, last: 1 }), Ok(vec![5, 2]));
+        let other = Texture::unorm8(5, 2, vec![9; 10]).unwrap();
+        let with_other = texture.clone().with_readings(vec![other.clone()]).unwrap();
+        let widths_of =
+            |choice: MipChoice| choice.of(&with_other).unwrap().iter().map(|mip| mip.width()).collect::<Vec<_>>();
+        assert_eq!(widths_of(MipChoice::All), [5, 5, 2, 1]);
+        assert!(other.with_readings(vec![with_other]).is_err(), "one with mips");
         for (first, last) in [(1, 0), (0, 3), (u32::MAX, u32::MAX)] {
             assert_eq!(widths(MipChoice::Range { first, last }), Err(BakeError::MipRange { first, last, count: 3 }));
         }

@@ -19,6 +19,8 @@ pub struct Texture {
     extremes: [f64; 2],
     /// Mips 1 and on.
     mips: Vec<Texture>,
+    /// What other devices read instead of these texels.
+    readings: Vec<Texture>,
 }
 
 #[derive(Clone, Debug)]
@@ -89,6 +91,14 @@ pub enum TextureError {
         /// The sizes that it must have.
         required: [u32; 2],
     },
+    /// What other devices read is not as large as the texture, or has mips or readings of its own.
+    #[error("a reading of {} x {} texels is not one of a texture of {} x {}, or brings textures of its own", found[0], found[1], required[0], required[1])]
+    Reading {
+        /// Its width and height in texels.
+        found: [u32; 2],
+        /// Those of the texture.
+        required: [u32; 2],
+    },
     /// There are mips behind the one of a single texel, or a mip has mips of its own.
     #[error("mip {mip} cannot be: the one before has a single texel, or brings mips of its own")]
     MipChain {
@@ -130,6 +140,7 @@ impl Texture {
             texels: Texels::Unorm8(data),
             extremes: extremes.map(f64::from),
             mips: Vec::new(),
+            readings: Vec::new(),
         })
     }
 
@@ -170,6 +181,7 @@ impl Texture {
             texels: Texels::Fp32(data),
             extremes: extremes.map(f64::from),
             mips: Vec::new(),
+            readings: Vec::new(),
         })
     }
 
@@ -193,6 +205,29 @@ impl Texture {
         }
         self.mips = mips;
         Ok(self)
+    }
+
+    /// The texture with other `readings` of its file: what devices that decode it otherwise read in place of these texels. A
+    /// microtriangle is opaque, or transparent, only if it is for all of them. The mips bring readings of their own.
+    ///
+    /// # Errors
+    /// [`TextureError::Reading`] names the sizes if one is not as large as this texture, or has mips or readings itself.
+    pub fn with_readings(mut self, readings: Vec<Self>) -> Result<Self, TextureError> {
+        let required = [self.width, self.height];
+        let fits = |reading: &&Self| {
+            [reading.width, reading.height] == required && reading.mips.is_empty() && reading.readings.is_empty()
+        };
+        if let Some(wrong) = readings.iter().find(|reading| !fits(reading)) {
+            return Err(TextureError::Reading { found: [wrong.width, wrong.height], required });
+        }
+        self.readings = readings;
+        Ok(self)
+    }
+
+    /// What other devices read in place of this texture.
+    #[must_use]
+    pub fn readings(&self) -> &[Self] {
+        &self.readings
     }
 
     /// How many mips there are, this one included: at least 1.

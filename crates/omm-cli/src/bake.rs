@@ -185,7 +185,7 @@ struct Item<'a> {
 impl BakeArgs {
     /// Bakes everything and leaves the results in their place, which it names: all or none.
     fn bake(&self) -> Result<(Vec<Statistics>, PathBuf), CliError> {
-        let input = Input::read(&self.input, self.images.options())?;
+        let input = Input::read(&self.input, self.images.options(self.tuning.mips))?;
         self.check_gltf(&input)?;
         let mut files = Target::new(self, &input)?;
         let all: Vec<_> = self.items(&input)?.into_iter().map(|item| self.bake_one(item)).collect::<Result<_, _>>()?;
@@ -207,7 +207,7 @@ impl BakeArgs {
 
     /// Says what would be baked.
     fn forecast(&self) -> Result<Vec<Forecast>, CliError> {
-        let input = Input::read(&self.input, self.images.options())?;
+        let input = Input::read(&self.input, self.images.options(self.tuning.mips))?;
         let forecast = |item: Item<'_>| {
             Forecast::new(item.name, &item.input, &item.options).map_err(dry::refused(&self.input, item.name))
         };

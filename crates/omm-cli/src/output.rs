@@ -106,7 +106,7 @@ impl OutputSet {
         self.add(path.file_name().unwrap_or_default(), write)
     }
 
-    /// Adds a file `name` with what `write` writes.
+    /// Adds a file `name` with what `write` writes. Where that is a link, the file that it leads to is meant.
     pub(crate) fn add(
         &mut self,
         name: impl AsRef<Path>,
@@ -115,18 +115,17 @@ impl OutputSet {
         self.make_folder()?;
         let path = self.folder.join(name);
         let stage = || {
-            if path.is_dir() {
-                return Err(io::Error::from(io::ErrorKind::IsADirectory));
-            }
-            let mut file = builder().tempfile_in(&self.folder)?;
+            let target = replaceable(&path)?;
+            // A file can only take the place of one in the same file system.
+            let mut file = builder().tempfile_in(target.parent().unwrap_or(&self.folder))?;
             let mut writer = BufWriter::new(file.as_file_mut());
             write(&mut writer)?;
             writer.flush()?;
             drop(writer);
-            Ok(file.into_temp_path())
+            Ok((target, file.into_temp_path()))
         };
-        let file = stage().map_err(CliError::write(&path))?;
-        self.files.push((path, file));
+        let staged = stage().map_err(CliError::write(&path))?;
+        self.files.push(staged);
         Ok(())
     }
 
@@ -154,17 +153,23 @@ impl OutputSet {
 
     /// Gives every file its name, replacing what was there, and returns the paths in the order in which they were added.
     ///
-    /// If one cannot be renamed, those renamed before it are removed again.
+    /// If one cannot be renamed, those renamed before it are removed again, but for those that took the place of another: what was
+    /// there is gone, so that what is new stays.
     pub(crate) fn commit(mut self) -> Result<Vec<PathBuf>, CliError> {
         self.make_folder()?;
         let mut done = Vec::with_capacity(self.files.len());
+        let mut new = Vec::new();
         for (path, file) in self.files.drain(..) {
+            let is_new = !path.exists();
             if let Err(error) = file.persist(&path) {
-                for path in &done {
+                for path in &new {
                     // The first failure is the one to report.
                     let _ = fs::remove_file(path);
                 }
                 return Err(CliError::write(&path)(error.error));
+            }
+            if is_new {
+                new.push(path.clone());
             }
             done.push(path);
         }
@@ -195,6 +200,17 @@ impl Drop for OutputSet {
             // Fails on a folder that another program has begun to use, which then stays.
             let _ = fs::remove_dir(folder);
         }
+    }
+}
+
+/// The name that a file gets in place of what is at `path`: a device, pipe or folder there is not replaced.
+fn replaceable(path: &Path) -> io::Result<PathBuf> {
+    let target = if path.is_symlink() { path.canonicalize()? } else { path.to_path_buf() };
+    match target.metadata() {
+        Ok(found) if !found.is_file() => {
+            Err(io::Error::new(io::ErrorKind::InvalidInput, "what has that name is not a regular file"))
+        }
+        _ => Ok(target),
     }
 }
 
@@ -274,5 +290,40 @@ mod tests {
         assert!(set.add("two", |_| Ok(())).unwrap_err().to_string().contains("two: cannot write: "));
         drop(set);
         assert_eq!(entries(root.path()), ["two"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_what_is_no_file_stays() {
+        let root = tempfile::tempdir().unwrap();
+        let (folder, link) = (root.path().join("folder"), root.path().join("link"));
+        fs::create_dir(&folder).unwrap();
+        fs::write(folder.join("file"), b"old").unwrap();
+        std::os::unix::fs::symlink(folder.join("file"), &link).unwrap();
+        let _socket = std::os::unix::net::UnixListener::bind(root.path().join("socket")).unwrap();
+        let mut set = OutputSet::new(root.path());
+        set.add("link", |out| out.write_all(b"new")).unwrap();
+        let refused = set.add("socket", |_| Ok(())).unwrap_err().to_string();
+        assert!(refused.ends_with("socket: cannot write: what has that name is not a regular file"), "{refused}");
+        set.commit().unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(fs::read(folder.join("file")).unwrap(), b"new");
+        assert_eq!(entries(&folder), ["file"]);
+        assert_eq!(entries(root.path()), ["folder", "link", "socket"]);
+    }
+
+    #[test]
+    fn what_took_the_place_of_another_file_stays_when_a_later_one_fails() {
+        let root = tempfile::tempdir().unwrap();
+        fs::write(root.path().join("old"), b"old").unwrap();
+        let mut set = OutputSet::new(root.path());
+        for name in ["old", "new", "taken"] {
+            set.add(name, |out| out.write_all(b"new")).unwrap();
+        }
+        // Another program was faster.
+        fs::create_dir(root.path().join("taken")).unwrap();
+        set.commit().unwrap_err();
+        assert_eq!(entries(root.path()), ["old", "taken"]);
+        assert_eq!(fs::read(root.path().join("old")).unwrap(), b"new");
     }
 }

@@ -71,16 +71,17 @@ fn the_cutoff_is_the_material_s_unless_one_is_given() {
     assert_eq!(states(json!(1.5), &["--cutoff", "0"]), opaque);
 }
 
-/// A DDS file of 4 x 4 texels of DXT3, whose alpha is `alpha` of 15.
-fn dds(alpha: u8) -> Vec<u8> {
+/// A DDS file of 4 x 4 texels of DXT3, whose alpha is `alphas[mip]` of 15.
+fn dds(alphas: &[u8]) -> Vec<u8> {
     let mut header = [0_u32; 32];
     header[0] = u32::from_le_bytes(*b"DDS ");
     // Size and flags, height and width, then the pixel format's size and flags, and its name.
-    header[1..5].copy_from_slice(&[124, 0x1007, 4, 4]);
+    header[1..5].copy_from_slice(&[124, 0x2_1007, 4, 4]);
+    header[7] = alphas.len() as u32;
     header[19..22].copy_from_slice(&[32, 4, u32::from_le_bytes(*b"DXT3")]);
     header[27] = 0x1000;
     let mut bytes: Vec<u8> = header.iter().flat_map(|word| word.to_le_bytes()).collect();
-    bytes.extend([[alpha * 0x11; 8], [0; 8]].concat());
+    alphas.iter().for_each(|alpha| bytes.extend([[alpha * 0x11; 8], [0; 8]].concat()));
     bytes
 }
 
@@ -88,7 +89,7 @@ fn dds(alpha: u8) -> Vec<u8> {
 fn block_compressed_images_and_channels() {
     let folder = with(|json| json["images"][0] = json!({ "uri": "leaf.dds" }));
     let special = |alpha: u8, options: &[&str]| {
-        folder.write("leaf.dds", dds(alpha));
+        folder.write("leaf.dds", dds(&[alpha]));
         let options: Vec<_> = ["--format", "json"].into_iter().chain(options.iter().copied()).collect();
         folder.bake("quad.glb", &options).json()[0]["special_indices"].clone()
     };
@@ -99,9 +100,45 @@ fn block_compressed_images_and_channels() {
     assert_eq!(special(15, &["--channel", "red"])["transparent"], json!(2));
     std::fs::remove_dir_all(folder.path("out")).unwrap();
     assert_eq!(
-        folder.refused("quad.glb", &["--mip-level", "1"]),
+        folder.refused("quad.glb", &["--mips", "1"]),
         "quad.glb: images[0]: there is no mip level 1: the image has 1"
     );
+}
+
+#[test]
+fn devices_that_decode_otherwise() {
+    let folder = with(|json| {
+        json["images"][0] = json!({ "uri": "leaf.dds" });
+        json["materials"][0]["alphaCutoff"] = json!(0.39);
+    });
+    let mut file = dds(&[0]);
+    file[84..88].copy_from_slice(b"DXT5");
+    // Two fifths of the way from 0 to 255, everywhere: 102, or 96 on some devices.
+    let codes: u64 = (0..16).map(|texel| 3 << (3 * texel)).sum();
+    file[128..136].copy_from_slice(&(codes << 16 | 255 << 8).to_le_bytes());
+    folder.write("leaf.dds", &file);
+    let special = |device: &str| {
+        let options = ["--format", "json", "--promotion", "force-opaque", "--block-decoding", device];
+        folder.bake("quad.glb", &options).json()[0]["special_indices"].clone()
+    };
+    assert_eq!(special("specification")["opaque"], json!(2));
+    assert_eq!(special("nvidia")["transparent"], json!(2));
+    assert_eq!(special("all")["unknown_opaque"], json!(2));
+}
+
+#[test]
+fn mips_of_a_dds_file_must_agree() {
+    let folder = with(|json| json["images"][0] = json!({ "uri": "leaf.dds" }));
+    folder.write("leaf.dds", dds(&[15, 0, 15]));
+    let special = |mips: &[&str]| {
+        let options = [&["--format", "json", "--promotion", "force-opaque"], mips].concat();
+        folder.bake("quad.glb", &options).json()[0]["special_indices"].clone()
+    };
+    assert_eq!(special(&[])["opaque"], json!(2), "only mip 0 if nothing is said");
+    assert_eq!(special(&["--mips", "0"])["opaque"], json!(2));
+    assert_eq!(special(&["--mips", "1"])["transparent"], json!(2));
+    assert_eq!(special(&["--mips", "0-1"])["unknown_opaque"], json!(2));
+    assert_eq!(special(&["--mips", "2-2"])["opaque"], json!(2));
 }
 
 #[test]

@@ -64,6 +64,23 @@ impl VertexFormat {
         matches!(self.component, Component::Float32 | Component::Float16)
     }
 
+    /// Whether any of the vertices in `bytes`, which begin `stride` bytes apart (all in one place if that is 0), has a number as
+    /// first component and NaN as another one of its position: neither a vertex nor one that takes its triangle out.
+    ///
+    /// The same as to read each and look, only faster; a vertex that `bytes` cuts off is passed over.
+    #[must_use]
+    pub fn any_partly_nan(self, bytes: &[u8], stride: usize) -> bool {
+        let (single, half) =
+            (|bytes| f32::from_le_bytes(bytes).is_nan(), |bytes| f16_is_nan(u16::from_le_bytes(bytes)));
+        match (self.component, self.count) {
+            (Component::Float32, 2) => any_vertex::<8>(bytes, stride, |vertex| is_partly_nan(vertex, single)),
+            (Component::Float32, _) => any_vertex::<12>(bytes, stride, |vertex| is_partly_nan(vertex, single)),
+            (Component::Float16, 2) => any_vertex::<4>(bytes, stride, |vertex| is_partly_nan(vertex, half)),
+            (Component::Float16, _) => any_vertex::<6>(bytes, stride, |vertex| is_partly_nan(vertex, half)),
+            _ => false,
+        }
+    }
+
     /// The position of the vertex at the start of `bytes`; *z* is 0 if only two components are stored, a fourth is left out.
     ///
     /// Floats keep their value, NaN included. A signed normalized value *c* of *n* bits is `c / (2^(n-1) - 1)`, at least -1, an
@@ -130,6 +147,28 @@ impl TryFrom<vk::Format> for VertexFormat {
         };
         Ok(Self { raw, component, count })
     }
+}
+
+/// Whether `wrong` holds for the `N` bytes at the start of any vertex. Blocks of vertices that lie side by side are looked at as a
+/// whole, which a compiler turns into wide instructions.
+fn any_vertex<const N: usize>(bytes: &[u8], stride: usize, wrong: impl Fn(&[u8; N]) -> bool) -> bool {
+    if stride == N {
+        let block = |vertices: &[[u8; N]]| vertices.iter().fold(false, |any, vertex| any | wrong(vertex));
+        return bytes.as_chunks().0.chunks(256).any(block);
+    }
+    let mut vertices = bytes.chunks(if stride == 0 { bytes.len().max(1) } else { stride });
+    vertices.any(|vertex| vertex.first_chunk().is_some_and(&wrong))
+}
+
+/// Whether the first component is a number and another is not. Nothing is skipped, as that would be slower.
+fn is_partly_nan<const N: usize, const SIZE: usize>(vertex: &[u8; N], is_nan: fn([u8; SIZE]) -> bool) -> bool {
+    let (components, _) = vertex.as_chunks();
+    let Some((first, others)) = components.split_first() else { return false };
+    !is_nan(*first) & others.iter().fold(false, |any, component| any | is_nan(*component))
+}
+
+fn f16_is_nan(half: u16) -> bool {
+    half & 0x7fff > 0x7c00
 }
 
 /// The same number, or a NaN with the same sign and the payload in the high bits.
@@ -228,6 +267,29 @@ mod tests {
             if !magnitude.is_nan() {
                 assert_eq!(f64::from(found.abs()), magnitude, "{half:#x}");
             }
+        }
+    }
+
+    #[test]
+    fn a_nan_behind_a_number_is_found_wherever_it_stands() {
+        for format in
+            FORMATS.map(|format| VertexFormat::try_from(format).unwrap()).into_iter().filter(|it| it.has_nan())
+        {
+            for stride in [0, format.size(), format.size() + 4, 3 * format.size()] {
+                // Some 300 vertices: more than a block.
+                let count = 300;
+                let mut bytes = vec![0x3c; stride * (count - 1) + format.size()];
+                assert!(!format.any_partly_nan(&bytes, stride), "{format:?}, {stride}");
+                for place in 0..bytes.len() / format.component_size() {
+                    let component = place * format.component_size()..(place + 1) * format.component_size();
+                    bytes[component.clone()].fill(0xff);
+                    let mut vertices = (0..count).map(|vertex| format.read(&bytes[vertex * stride..]).unwrap());
+                    let expected = vertices.any(|[x, y, z]| !x.is_nan() && (y.is_nan() || z.is_nan()));
+                    assert_eq!(format.any_partly_nan(&bytes, stride), expected, "{format:?}, {stride}, {place}");
+                    bytes[component].fill(0x3c);
+                }
+            }
+            assert!(!format.any_partly_nan(&[], 0) && !format.any_partly_nan(&[0xff; 3], 3));
         }
     }
 

@@ -63,9 +63,21 @@ pub(super) fn texture(
     data: &[u8],
 ) -> Result<Texture, ImageError> {
     let blocks = Blocks { width: width as usize, height: height as usize, bytes: format.bytes(), data };
-    let ImageOptions { channel, block_decoding, .. } = options;
-    let measured = if block_decoding == BlockDecoding::Nvidia { nvidia(format, channel) } else { None };
-    let texture = match measured.unwrap_or_else(|| decoder(format, channel)) {
+    let (specified, measured) = (decoder(format, options.channel), nvidia(format, options.channel));
+    match (options.block_decoding, measured) {
+        (BlockDecoding::Specification, _) | (_, None) => decoded(specified, &blocks),
+        (BlockDecoding::Nvidia, Some(measured)) => decoded(measured, &blocks),
+        (BlockDecoding::All, Some(measured)) => {
+            let reading = decoded(measured, &blocks)?;
+            Ok(decoded(specified, &blocks)?.with_readings(vec![reading])?)
+        }
+    }
+}
+
+/// The texture that a decoder makes of all blocks.
+fn decoded(decoder: Decoder, blocks: &Blocks<'_>) -> Result<Texture, ImageError> {
+    let (width, height) = (blocks.width as u32, blocks.height as u32);
+    let texture = match decoder {
         Decoder::Constant(value) => Texture::unorm8(width, height, vec![value; blocks.texels()]),
         Decoder::Floats(decode, component) => {
             Texture::fp32(width, height, blocks.texels_of(|block| decode(block, component), |value| value))
@@ -74,7 +86,7 @@ pub(super) fn texture(
             // Whole 255ths need a byte, and no rounding.
             let step = denominator / 255;
             let whole = |block: &[u8]| decode(block).into_iter().all(|value| value >= 0 && value % step == 0);
-            if denominator % 255 == 0 && data.chunks_exact(blocks.bytes).all(whole) {
+            if denominator % 255 == 0 && blocks.data.chunks_exact(blocks.bytes).all(whole) {
                 Texture::unorm8(width, height, blocks.texels_of(decode, |value| (value / step) as u8))
             } else {
                 // The quotient of such small integers is so far from a tie of f32 that rounding twice is rounding once.

@@ -8,7 +8,7 @@ use super::texels::{Order, Sample, TexelFormat};
 use super::{Channel, ImageOptions, level_size};
 use crate::texture::Texture;
 
-pub(super) fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, ImageError> {
+pub(super) fn read(bytes: &[u8], options: ImageOptions, level: u32) -> Result<Texture, ImageError> {
     let dds = Dds::read(bytes).map_err(ImageError::Dds)?;
     let shape = |what| Err(ImageError::Shape { what });
     if dds.header.depth.is_some_and(|depth| depth > 1) {
@@ -28,9 +28,9 @@ pub(super) fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, Image
     }
     let [full_width, full_height] = [dds.header.width, dds.header.height];
     let levels = dds.header.mip_map_count.unwrap_or(1).max(1);
-    let (width, height) = level_size(full_width, full_height, options.mip_level, levels)?;
+    let (width, height) = level_size(full_width, full_height, level, levels)?;
     // Levels lie one after the other, the largest first. Beyond 32 there are none that differ.
-    let before: u64 = (0..options.mip_level.min(32))
+    let before: u64 = (0..level.min(32))
         .filter_map(|level| level_size(full_width, full_height, level, levels).ok())
         .map(|(width, height)| format.bytes(width, height))
         .sum();

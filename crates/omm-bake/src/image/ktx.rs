@@ -11,7 +11,7 @@ use super::texels::{Order, Sample, TexelFormat};
 use super::{Channel, ImageOptions, level_size};
 use crate::texture::Texture;
 
-pub(super) fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, ImageError> {
+pub(super) fn read(bytes: &[u8], options: ImageOptions, level: u32) -> Result<Texture, ImageError> {
     // The crate's `Reader` panics on some descriptors of the data format, so only its structures are used.
     let header = bytes.first_chunk().ok_or(ParseError::UnexpectedEnd).and_then(Header::from_bytes);
     let header = header.map_err(ImageError::Ktx)?;
@@ -26,15 +26,15 @@ pub(super) fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, Image
         return Err(ImageError::SrgbColour { format: name() });
     }
     let levels = header.level_count.max(1);
-    let (width, height) = level_size(header.pixel_width, header.pixel_height, options.mip_level, levels)?;
-    let level = level(bytes, options.mip_level).ok_or(ImageError::Ktx(ParseError::UnexpectedEnd))?;
+    let (width, height) = level_size(header.pixel_width, header.pixel_height, level, levels)?;
+    let stored = stored(bytes, level).ok_or(ImageError::Ktx(ParseError::UnexpectedEnd))?;
     let size = format.bytes(width, height);
     let data = match header.supercompression_scheme {
-        None => Cow::Borrowed(level),
-        Some(scheme) => decompress(scheme, level, size)?,
+        None => Cow::Borrowed(stored),
+        Some(scheme) => decompress(scheme, stored, size)?,
     };
     let data = usize::try_from(size).ok().and_then(|size| data.get(..size));
-    format.texture(width, height, options, data.ok_or(ImageError::Size { width, height, bytes: level.len() })?)
+    format.texture(width, height, options, data.ok_or(ImageError::Size { width, height, bytes: stored.len() })?)
 }
 
 fn check_shape(header: &Header) -> Result<(), ImageError> {
@@ -57,7 +57,7 @@ fn is_basis(header: &Header, bytes: &[u8]) -> bool {
 }
 
 /// The bytes of a mip level, whose entry in the index behind the header says where they are.
-fn level(bytes: &[u8], level: u32) -> Option<&[u8]> {
+fn stored(bytes: &[u8], level: u32) -> Option<&[u8]> {
     let entry = bytes.get(Header::LENGTH..)?.chunks_exact(LevelIndex::LENGTH).nth(level as usize)?;
     let LevelIndex { byte_offset, byte_length, .. } = LevelIndex::from_bytes(entry.first_chunk()?);
     let start = usize::try_from(byte_offset).ok()?;

@@ -11,11 +11,11 @@ use super::error::ImageError;
 use super::{Channel, ImageOptions, level_size};
 use crate::texture::Texture;
 
-pub(super) fn read(bytes: &[u8], options: ImageOptions) -> Result<Texture, ImageError> {
+pub(super) fn read(bytes: &[u8], options: ImageOptions, level: u32) -> Result<Texture, ImageError> {
     let image = match bytes {
-        [0x89, b'P', b'N', b'G', ..] => decode(PngDecoder::new(Cursor::new(bytes)), bytes, options, png_can_hold),
-        [0xff, 0xd8, 0xff, ..] => decode(JpegDecoder::new(Cursor::new(bytes)), bytes, options, jpeg_can_hold),
-        _ if is_tga(bytes) => decode(TgaDecoder::new(Cursor::new(bytes)), bytes, options, tga_can_hold),
+        [0x89, b'P', b'N', b'G', ..] => decode(PngDecoder::new(Cursor::new(bytes)), bytes, level, png_can_hold),
+        [0xff, 0xd8, 0xff, ..] => decode(JpegDecoder::new(Cursor::new(bytes)), bytes, level, jpeg_can_hold),
+        _ if is_tga(bytes) => decode(TgaDecoder::new(Cursor::new(bytes)), bytes, level, tga_can_hold),
         _ => return Err(ImageError::Kind { start: bytes.iter().take(8).copied().collect() }),
     }?;
     texture(&image, options.channel)
@@ -29,12 +29,12 @@ fn is_tga(bytes: &[u8]) -> bool {
 fn decode<D: ImageDecoder>(
     decoder: Result<D, image::ImageError>,
     bytes: &[u8],
-    options: ImageOptions,
+    level: u32,
     least: impl FnOnce(u64, u64) -> u64,
 ) -> Result<DynamicImage, ImageError> {
     let decoder = decoder.map_err(ImageError::Raster)?;
     let (width, height) = decoder.dimensions();
-    level_size(width, height, options.mip_level, 1)?;
+    level_size(width, height, level, 1)?;
     // A size is a claim: before memory is taken for it, the file must be long enough to hold it.
     if least(width.into(), height.into()) > bytes.len() as u64 {
         return Err(ImageError::Size { width, height, bytes: bytes.len() });
@@ -101,7 +101,7 @@ mod tests {
     }
 
     fn channel(bytes: &[u8], channel: Channel) -> Texture {
-        read(bytes, ImageOptions { channel, ..ImageOptions::default() }).unwrap()
+        read(bytes, ImageOptions { channel, ..ImageOptions::default() }, 0).unwrap()
     }
 
     #[test]
@@ -136,14 +136,14 @@ mod tests {
 
     #[test]
     fn other_kinds_are_named_by_their_first_bytes() {
-        let text = |bytes| read(bytes, ImageOptions::default()).unwrap_err().to_string();
+        let text = |bytes| read(bytes, ImageOptions::default(), 0).unwrap_err().to_string();
         assert_eq!(
             text(b"RIFF....WEBPVP8L................"),
             "not a PNG, JPEG, TGA, DDS or KTX2 image: it starts with [52, 49, 46, 46, 2e, 2e, 2e, 2e]"
         );
         assert_eq!(text(b""), "not a PNG, JPEG, TGA, DDS or KTX2 image: it starts with []");
         let png = encoded(GrayImage::new(2, 2), ImageFormat::Png);
-        let level = read(&png, ImageOptions { mip_level: 1, ..ImageOptions::default() }).unwrap_err();
+        let level = read(&png, ImageOptions::default(), 1).unwrap_err();
         assert_eq!(level.to_string(), "there is no mip level 1: the image has 1");
     }
 
@@ -154,7 +154,7 @@ mod tests {
             let whole = encoded(image.clone(), format);
             // The last 16 bytes of a PNG say only that it ends.
             for end in 0..whole.len() - 16 {
-                assert!(read(&whole[..end], ImageOptions::default()).is_err(), "{format:?} {end}");
+                assert!(read(&whole[..end], ImageOptions::default(), 0).is_err(), "{format:?} {end}");
             }
         }
     }
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn a_size_that_the_file_cannot_hold_takes_no_memory() {
         let text = |result: Result<DynamicImage, ImageError>| result.unwrap_err().to_string();
-        let claim = |width, height| decode(Ok(Claim(width, height)), &[0; 100], ImageOptions::default(), png_can_hold);
+        let claim = |width, height| decode(Ok(Claim(width, height)), &[0; 100], 0, png_can_hold);
         assert_eq!(text(claim(16_000, 16_000)), "16000 x 16000 pixels are claimed, more than 100 bytes can hold");
         assert_eq!(
             text(claim(65_000, 65_000)),
@@ -170,7 +170,7 @@ mod tests {
         );
         let mut tga = vec![0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x10, 0, 0x10, 32, 8];
         tga.extend([0; 100]);
-        let error = read(&tga, ImageOptions::default()).unwrap_err().to_string();
+        let error = read(&tga, ImageOptions::default(), 0).unwrap_err().to_string();
         assert_eq!(error, "4096 x 4096 pixels are claimed, more than 118 bytes can hold");
     }
 

@@ -10,8 +10,8 @@ use super::*;
 
 const ALPHA: ImageOptions = options(Channel::Alpha, 0);
 
-const fn options(channel: Channel, mip_level: u32) -> ImageOptions {
-    ImageOptions { channel, mip_level, block_decoding: BlockDecoding::Specification }
+const fn options(channel: Channel, last_mip: u32) -> ImageOptions {
+    ImageOptions { channel, last_mip, block_decoding: BlockDecoding::Specification }
 }
 
 fn dxgi(format: DxgiFormat, width: u32, height: u32, levels: u32, data: &[u8]) -> Vec<u8> {
@@ -83,7 +83,7 @@ fn ktx(format: Option<Format>, size: [u32; 2], scheme: Option<SupercompressionSc
 
 fn value(bytes: &[u8], channel: Channel, mip_level: u32, x: u32) -> Option<f64> {
     let texture = read(bytes, options(channel, mip_level)).unwrap();
-    texture.alpha(x, 0).map(|value| (value * 255.0).round())
+    texture.mip(mip_level).unwrap().alpha(x, 0).map(|value| (value * 255.0).round())
 }
 
 fn refused(bytes: &[u8], options: ImageOptions) -> String {
@@ -124,15 +124,20 @@ fn mip_levels_lie_one_after_the_other() {
         for (level, expected) in [(0, 10.0), (1, 20.0), (2, 30.0)] {
             assert_eq!(value(&bytes, Channel::Red, level, 0), Some(expected));
         }
-        let last = read(&bytes, options(Channel::Red, 2)).unwrap();
+        let texture = read(&bytes, options(Channel::Red, 2)).unwrap();
+        assert_eq!((texture.width(), texture.height(), texture.mip_count()), (8, 4, 3));
+        let last = texture.mip(2).unwrap();
         assert_eq!((last.width(), last.height()), (2, 1));
         for absent in [3, u32::MAX] {
-            assert_eq!(
-                refused(&bytes, options(Channel::Red, absent)),
-                format!("there is no mip level {absent}: the image has 3")
-            );
+            assert_eq!(refused(&bytes, options(Channel::Red, absent)), "there is no mip level 3: the image has 3");
         }
     }
+    // A claim of more levels than a size can have is no reason to read on.
+    let mut all = dxgi(DxgiFormat::R8_UNorm, 8, 4, 4, &[levels.as_slice(), &[40; 9]].concat());
+    // The count of levels.
+    all[28..32].fill(0xff);
+    assert_eq!(value(&all, Channel::Red, 3, 0), Some(40.0));
+    assert_eq!(refused(&all, options(Channel::Red, u32::MAX)), "there is no mip level 4: the image has 4");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The options of `omm bake` about the images of a glTF file.
 
 use clap::{Args, ValueEnum};
+use omm_bake::MipChoice;
 use omm_bake::image::{BlockDecoding, Channel, ImageOptions};
 
 /// Arguments about images.
@@ -10,9 +11,6 @@ pub(super) struct Images {
     /// Which channel of a glTF file's images is alpha.
     #[arg(long, value_name = "CHANNEL", default_value = "alpha")]
     channel: ChannelArgument,
-    /// Which mip level of a glTF file's DDS and KTX2 images is baked.
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    mip_level: u32,
     /// As which device the BC3, BC4 and BC5 texels of a glTF file's images are decoded.
     #[arg(long, value_name = "DEVICE", default_value = "specification")]
     block_decoding: BlockDecodingArgument,
@@ -40,11 +38,13 @@ enum BlockDecodingArgument {
     Specification,
     /// As measured on NVIDIA devices.
     Nvidia,
+    /// Both: known is what both make of the file.
+    All,
 }
 
 impl Images {
-    /// What is read of an image.
-    pub(super) const fn options(&self) -> ImageOptions {
+    /// What is read of an image of whose mips these are wanted: only the largest if that is not said.
+    pub(super) fn options(&self, mips: Option<MipChoice>) -> ImageOptions {
         let channel = match self.channel {
             ChannelArgument::Red => Channel::Red,
             ChannelArgument::Green => Channel::Green,
@@ -54,7 +54,12 @@ impl Images {
         let block_decoding = match self.block_decoding {
             BlockDecodingArgument::Specification => BlockDecoding::Specification,
             BlockDecodingArgument::Nvidia => BlockDecoding::Nvidia,
+            BlockDecodingArgument::All => BlockDecoding::All,
         };
-        ImageOptions { channel, mip_level: self.mip_level, block_decoding }
+        let last_mip = match mips {
+            Some(MipChoice::Range { last, .. }) => last,
+            _ => 0,
+        };
+        ImageOptions { channel, last_mip, block_decoding }
     }
 }

@@ -19,9 +19,10 @@ const AS_OTHERS: u8 = 255;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Tuning")]
 pub(super) struct Tuning {
-    /// Mips that the shader may read, such as 2 or 0-3; all that a job has if absent.
+    /// Mips that the shader may read, such as 2 or 0-3. If absent, mip 0 of a glTF file's images and all that a job has; only DDS
+    /// and KTX2 images have others.
     #[arg(long, value_name = "FIRST-LAST", value_parser = mips)]
-    mips: Option<MipChoice>,
+    pub(super) mips: Option<MipChoice>,
     /// The state where alpha is above the cutoff: uo for smoke that a shader must see.
     #[arg(long, value_name = "STATE")]
     greater: Option<State>,

@@ -67,7 +67,11 @@ fn dst_acceleration_structure_11549(build: &BuildContext<'_>, state: &State, rep
     if state.acceleration_structure(dst).is_none() {
         return;
     }
-    let mut micromaps = build.infos.iter().flat_map(attached_micromaps).filter(|micromap| *micromap != dst);
+    // The geometries of a mesh mostly share a micromap, which is compared once.
+    let mut last = dst;
+    let is_other = |micromap: &vk::AccelerationStructure| std::mem::replace(&mut last, *micromap) != *micromap;
+    let mut micromaps =
+        build.infos.iter().flat_map(attached_micromaps).filter(is_other).filter(|micromap| *micromap != dst);
     if let Some(micromap) = micromaps.find(|micromap| share_memory(dst, *micromap, state)) {
         let vk::DeviceAddressRange { address, size } = state.address_range(dst).unwrap_or_default();
         let kind = ViolationKind::OverlapsObject { start: address.0, size, other: micromap.0 };

@@ -91,6 +91,13 @@ fn as_which_device_is_a_choice() {
     assert_eq!(value(nvidia, bc3, Channel::Alpha), 96.0 / 255.0);
     assert_eq!(value(nvidia, bc5, Channel::Green), f64::from(24_480.0_f32 / 65_535.0));
     assert_eq!(value(nvidia, bc3, Channel::Red), value(fractions, bc3, Channel::Red));
+    let both = |channel| {
+        let options = ImageOptions { channel, block_decoding: BlockDecoding::All, ..ImageOptions::default() };
+        texture(bc3, 4, 4, options, &[all_codes(0, 255), all_codes(0, 255)].concat()).unwrap()
+    };
+    assert_eq!(both(Channel::Alpha).alpha(3, 0), Some(0.4));
+    assert_eq!(both(Channel::Alpha).readings()[0].alpha(3, 0), Some(96.0 / 255.0));
+    assert!(both(Channel::Red).readings().is_empty(), "nothing else was measured");
 }
 
 #[test]
