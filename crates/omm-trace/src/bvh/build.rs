@@ -82,7 +82,7 @@ pub(crate) fn unit<'a>(boxes: impl IntoIterator<Item = &'a Bounds>) -> f64 {
 
 impl Bvh {
     /// A tree over `boxes` with at most `leaf` of them in a leaf; its items are their indices. `scale` is
-    /// the [`unit`] of these boxes, or of more. `None` if there are 2^30 boxes or more.
+    /// the [`unit()`] of these boxes, or of more. `None` if there are 2^30 boxes or more.
     pub(crate) fn build(boxes: &[Bounds], leaf: u32, scale: f64) -> Option<Self> {
         Self::build_within(boxes, leaf.max(1), scale, MAX_OPEN)
     }
