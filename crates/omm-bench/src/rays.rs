@@ -35,13 +35,13 @@ pub struct Garden {
 }
 
 impl Garden {
-    /// Bakes and builds the garden at level 7.
+    /// Bakes and builds the garden at level 8.
     ///
     /// # Errors
     /// None in practice.
     pub fn new() -> Result<Self, RenderError> {
         let scene = garden::garden()?;
-        let level = SubdivisionLevel::new(7).unwrap_or_default();
+        let level = SubdivisionLevel::new(8).unwrap_or_default();
         let options = BakeOptions { level: LevelChoice::Uniform(level), ..BakeOptions::default() };
         let baked = Baked::new(&scene, &options, &|_, _| {})?;
         let (with, without) = build(&scene, &baked)?;

@@ -41,7 +41,7 @@ Exit status:
   2  could not run";
 
 /// The finest level that the demo bakes.
-pub(crate) const LEVEL: SubdivisionLevel = match SubdivisionLevel::new(7) {
+pub(crate) const LEVEL: SubdivisionLevel = match SubdivisionLevel::new(8) {
     Ok(level) => level,
     Err(_) => SubdivisionLevel::MAX,
 };

@@ -56,7 +56,7 @@ pub(crate) struct RenderArgs {
     seed: u64,
     #[command(flatten)]
     view: View,
-    /// Subdivision level of every triangle, 0 to 12; chosen by texel footprint if not given, but for the garden, which has 7.
+    /// Subdivision level of every triangle, 0 to 12; chosen by texel footprint if not given, but for the garden, which has 8.
     #[arg(long, value_name = "L", value_parser = level)]
     level: Option<SubdivisionLevel>,
     /// How many threads work; one for each core if 0.

@@ -50,23 +50,30 @@ impl Placement {
         }
     }
 
-    /// A box around all places that the instance takes a box to, with room for rounding on the way there and back.
-    ///
-    /// `None` if it is not finite, or if what the transform does to rounding errors cannot be bounded at all times: by
-    /// more than a millionfold, or because the linear part changes too much between the times.
+    /// A box around all places that the instance takes a box to, with room for rounding on the way there and back if it
+    /// [is well conditioned](Self::is_well_conditioned). `None` if it is not finite.
     pub(crate) fn bounds(&self, of: &Bounds) -> Option<Bounds> {
         match self {
-            Self::Static(matrix) => affine_bounds(matrix, of).filter(|_| well_conditioned(matrix, matrix, 1.0)),
+            Self::Static(matrix) => affine_bounds(matrix, of),
             // Every point moves along a line, so it stays between its ends.
-            Self::Matrix([start, end]) => {
-                let bounds = affine_bounds(start, of)?.union(affine_bounds(end, of)?);
-                Some(bounds).filter(|_| well_conditioned(start, end, 1.0))
-            }
+            Self::Matrix([start, end]) => Some(affine_bounds(start, of)?.union(affine_bounds(end, of)?)),
             Self::Srt([start, end]) => {
                 let [start, end] = [start, end].map(|data| Srt::between(data, data, 0.0));
-                let bounds = turning_bounds([&start, &end], of)?;
+                turning_bounds([&start, &end], of)
+            }
+        }
+    }
+
+    /// Whether what the transform does to rounding errors can be bounded at all times: it grows them by less than a
+    /// millionfold, and the linear part does not change too much between the times.
+    pub(crate) fn is_well_conditioned(&self) -> bool {
+        match self {
+            Self::Static(matrix) => well_conditioned(matrix, matrix, 1.0),
+            Self::Matrix([start, end]) => well_conditioned(start, end, 1.0),
+            Self::Srt([start, end]) => {
+                let [start, end] = [start, end].map(|data| Srt::between(data, data, 0.0));
                 // A rotation changes no length; it grows the sums that norms are by a factor of 3 at most, each way.
-                Some(bounds).filter(|_| well_conditioned(&start.scale, &end.scale, 9.0))
+                well_conditioned(&start.scale, &end.scale, 9.0)
             }
         }
     }

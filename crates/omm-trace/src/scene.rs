@@ -4,13 +4,15 @@ use omm_model::curve::TieBreak;
 use omm_model::memory::MemoryView;
 use omm_model::vk::{DeviceAddress, GeometryInstanceFlags};
 
-use crate::bvh::{Bounds, Bvh, Planes};
+use crate::bvh::{Bounds, Bvh, Node, Planes};
 use crate::error::LoadError;
 use crate::opacity::{Micromap, TriangleOpacity};
 use crate::placement::Placement;
 use crate::transform::WorldToObject;
+use crate::triangle::Packet;
 
 mod load;
+mod reference;
 
 /// All that rays can hit: the instances of a top-level structure, their bottom-level structures, and the micromaps
 /// of these.
@@ -21,7 +23,9 @@ pub struct Scene {
     pub(crate) instances: Vec<Instance>,
     pub(crate) blases: Vec<Blas>,
     pub(crate) micromaps: Vec<Micromap>,
-    /// Over `instances[..boxed]`, which lie in the order of its slots.
+    /// Parts of all instances: those with a box in the order of the leaves of `bvh`, then the others.
+    pub(crate) references: Vec<Reference>,
+    /// Over `references[..boxed]`.
     pub(crate) bvh: Bvh,
     pub(crate) boxed: usize,
     /// Where each instance lies, in the order of `instances`.
@@ -45,6 +49,23 @@ pub(crate) struct Instance {
     pub(crate) flags: GeometryInstanceFlags,
 }
 
+/// A part of an instance: a node of one of the trees of its bottom-level structure, and all below it.
+///
+/// Each instance has its own few nodes in the hierarchy of the scene, so that rays pass over most of what overlaps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reference {
+    pub(crate) instance: u32,
+    pub(crate) primitives: Primitives,
+    pub(crate) node: Node,
+}
+
+/// What lies below a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Primitives {
+    Triangles,
+    Aabbs,
+}
+
 /// A bottom-level structure.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Blas {
@@ -53,9 +74,14 @@ pub(crate) struct Blas {
     pub(crate) triangles: Vec<Triangle>,
     /// The vertices at time 1 of each of them; empty if none of them moves.
     pub(crate) ends: Vec<[[f32; 3]; 3]>,
+    /// The vertices of the triangles in each leaf; empty if any moves.
+    pub(crate) packets: Vec<Packet>,
+    /// No coordinate of a triangle is larger.
+    pub(crate) largest: f64,
     pub(crate) triangle_bvh: Bvh,
     /// In the order of the slots of `aabb_bvh`.
     pub(crate) aabbs: Vec<Aabb>,
+    /// In the unit of `triangle_bvh`.
     pub(crate) aabb_bvh: Bvh,
     bounds: Option<Bounds>,
 }
@@ -99,7 +125,8 @@ impl Scene {
     ///
     /// # Errors
     /// The first object that cannot be read, is not of the kind wanted, lies in the bytes of another, or
-    /// contradicts another; with the way to it. What is allocated is a small multiple of the bytes read.
+    /// contradicts another; with the way to it. What is allocated is a small multiple of the bytes read, and some 20
+    /// megabytes at most for a hierarchy that tells overlapping instances apart.
     pub fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Self, LoadError> {
         load::load(view, tlas)
     }

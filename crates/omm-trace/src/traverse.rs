@@ -10,54 +10,45 @@ use crate::flags::{self, Facing, RayFlags};
 use crate::hit::{Candidate, Hit, HitKind};
 use crate::placement::moved;
 use crate::ray::{Ray, TraceOptions};
-use crate::scene::{Aabb, Blas, Instance, Scene, Triangle};
+use crate::scene::{Aabb, Primitives, Reference, Scene, Triangle};
 use crate::shader::AabbCandidate;
-use crate::transform::WorldToObject;
-use crate::triangle::{TriangleHit, TriangleRay};
+use crate::triangle::TriangleHit;
+
+mod visit;
+
+use visit::{Pending, Visit};
 
 /// The search along one ray. It stops at every candidate that somebody else has to decide about, and can be taken
 /// up again afterwards: pipelines and ray queries differ in who answers.
 #[derive(Clone, Debug)]
 pub(crate) struct Search<'s> {
     pub(crate) found: Found<'s>,
-    /// The ray among the boxes of instances.
+    /// The ray among the boxes of the scene.
     box_ray: BoxRay,
-    outer: Walk,
-    /// Slots of instances that are to be entered before the walk goes on.
-    instances: Range<usize>,
-    /// Whether only the instances without a box are left.
-    boxes_done: bool,
+    /// What is open of the scene, and above it what is open of the part of an instance that the search is in.
+    walk: Walk,
+    /// How much is open of the scene.
+    floor: usize,
+    /// References without a box, which every ray follows in the end.
+    unboxed: Range<usize>,
     stage: Stage,
     /// The instance that was entered last.
     visit: Option<Visit<'s>>,
-    inner: Walk,
-    /// Slots of primitives of the instance that are to be tried before its walk goes on.
-    primitives: Range<usize>,
+    /// The ray among the boxes of that instance, once it is needed.
+    object_box_ray: Option<BoxRay>,
+    /// Primitives of that instance that are to be tried before the walk goes on.
+    pending: Pending,
 }
 
 /// Where a search is.
 #[derive(Clone, Copy, Debug)]
 enum Stage {
-    /// Between two instances.
+    /// Between two parts of instances.
     Outside,
-    /// Among the triangles of an instance.
+    /// Among triangles.
     Triangles,
-    /// Among its boxes.
+    /// Among boxes.
     Aabbs,
-}
-
-/// What the search knows while it is inside an instance.
-#[derive(Clone, Debug)]
-struct Visit<'s> {
-    instance: &'s Instance,
-    blas: &'s Blas,
-    origin: [f64; 3],
-    direction: [f64; 3],
-    opacity: InstanceOpacity,
-    facing: Facing,
-    triangle_ray: TriangleRay,
-    /// The ray among the boxes of triangles, or of AABBs.
-    box_ray: BoxRay,
 }
 
 /// The operands of a search and its result.
@@ -93,18 +84,18 @@ impl<'s> Search<'s> {
             ended: false,
         };
         let (origin, direction) = (ray.origin().map(f64::from), ray.direction().map(f64::from));
-        let mut outer = Walk::new();
-        outer.begin(&scene.bvh);
+        let mut walk = Walk::new();
+        walk.begin(&scene.bvh);
         Self {
             found,
             box_ray: BoxRay::new(&scene.bvh, origin, direction, ray.t_min()),
-            outer,
-            instances: 0..0,
-            boxes_done: false,
+            walk,
+            floor: 0,
+            unboxed: scene.boxed..scene.references.len(),
             stage: Stage::Outside,
             visit: None,
-            inner: Walk::new(),
-            primitives: 0..0,
+            object_box_ray: None,
+            pending: Pending::default(),
         }
     }
 
@@ -130,71 +121,59 @@ impl<'s> Search<'s> {
         None
     }
 
-    /// Goes to the next instance that the ray can hit something in; `None` if there is none.
+    /// Goes to the next part of an instance that the ray can hit something in; `None` if there is none.
     fn enter(&mut self) -> Option<()> {
         let scene = self.found.scene;
         loop {
-            for slot in self.instances.by_ref() {
-                let Some(instance) = scene.instances.get(slot) else { continue };
-                let [visible, ..] = self.found.options.cull_mask.to_le_bytes();
-                if instance.mask & visible == 0 {
-                    continue;
-                }
-                let Some(blas) = scene.blases.get(instance.blas as usize) else { continue };
-                let Some(to_object) = scene.to_object(slot, instance, self.found.ray.time()) else { continue };
-                let origin = to_object.point(self.found.ray.origin());
-                let direction = to_object.direction(self.found.ray.direction());
-                self.visit = Some(Visit {
-                    instance,
-                    blas,
-                    origin,
-                    direction,
-                    opacity: flags::instance_opacity(instance.flags),
-                    facing: Facing::new(self.found.options.flags, instance.flags),
-                    triangle_ray: TriangleRay::new(origin, direction),
-                    box_ray: BoxRay::new(&blas.triangle_bvh, origin, direction, self.found.ray.t_min()),
-                });
-                self.begin_triangles(blas);
-                return Some(());
+            let at = match self.walk.next(&scene.bvh, &self.box_ray, self.found.limit(), 0) {
+                Some(leaf) => leaf,
+                None => self.unboxed.next()?,
+            };
+            let Some(&Reference { instance, primitives, node }) = scene.references.get(at) else { continue };
+            if self.found.passes_over(primitives) || !self.visit(instance) {
+                continue;
             }
-            match self.outer.next(&scene.bvh, &self.box_ray, self.found.limit()) {
-                Some(slots) => self.instances = slots,
-                None if self.boxes_done => return None,
-                None => {
-                    self.boxes_done = true;
-                    self.instances = scene.boxed..scene.instances.len();
+            let Self { found, visit: Some(visit), object_box_ray, .. } = self else { continue };
+            self.floor = self.walk.depth();
+            self.stage = match primitives {
+                Primitives::Triangles => Stage::Triangles,
+                Primitives::Aabbs => Stage::Aabbs,
+            };
+            match (node.as_leaf(), primitives) {
+                (Some(leaf), Primitives::Triangles) => self.pending = visit.triangles(leaf),
+                _ => {
+                    object_box_ray.get_or_insert_with(|| visit.box_ray(&found.ray));
+                    self.walk.begin_at(node);
                 }
             }
+            return Some(());
         }
     }
 
-    fn begin_triangles(&mut self, blas: &Blas) {
-        if blas.triangles.is_empty() || self.found.options.flags.contains(RayFlags::SKIP_TRIANGLES) {
-            return self.begin_aabbs();
+    /// Makes an instance the one that is visited, unless the ray cannot see or enter it.
+    #[inline]
+    fn visit(&mut self, at: u32) -> bool {
+        if self.visit.as_ref().is_some_and(|visit| visit.is_of(at)) {
+            return true;
         }
-        self.inner.begin(&blas.triangle_bvh);
-        self.stage = Stage::Triangles;
-    }
-
-    fn begin_aabbs(&mut self) {
-        self.stage = Stage::Outside;
-        let Some(visit) = &mut self.visit else { return };
-        let bvh = &visit.blas.aabb_bvh;
-        if !visit.blas.aabbs.is_empty() && !self.found.options.flags.contains(RayFlags::SKIP_AABBS) {
-            self.inner.begin(bvh);
-            visit.box_ray = BoxRay::new(bvh, visit.origin, visit.direction, self.found.ray.t_min());
-            self.stage = Stage::Aabbs;
+        let Found { scene, ray, options, .. } = &self.found;
+        let [visible, ..] = options.cull_mask.to_le_bytes();
+        if scene.instances.get(at as usize).is_none_or(|instance| instance.mask & visible == 0) {
+            return false;
         }
+        let Some(visit) = Visit::new(scene, at, ray) else { return false };
+        self.visit = Some(visit);
+        self.object_box_ray = None;
+        true
     }
 
     /// The next triangle of the instance that somebody has to decide about. If there is none the stage is left,
     /// unless the search was ended.
     fn triangles(&mut self, counters: &mut Counters) -> Option<Candidate> {
-        let Self { found, visit: Some(visit), inner, primitives, .. } = self else { return None };
+        let Self { found, visit: Some(visit), object_box_ray, walk, floor, pending, .. } = self else { return None };
         loop {
-            for (slot, triangle) in
-                primitives.clone().zip(visit.blas.triangles.get(primitives.clone()).unwrap_or_default())
-            {
+            while let Some(slot) = pending.take() {
+                let Some(triangle) = visit.blas.triangles.get(slot) else { continue };
                 let at_time;
                 let vertices = match visit.blas.ends.get(slot) {
                     None => &triangle.vertices,
@@ -203,39 +182,31 @@ impl<'s> Search<'s> {
                         &at_time
                     }
                 };
-                let Some(hit) = visit.triangle_ray.intersect(vertices) else { continue };
+                let Some(hit) = visit.triangle_ray().intersect(vertices) else { continue };
                 if let ControlFlow::Break(offer) = found.triangle(visit, triangle, hit, counters) {
-                    primitives.start = slot + 1;
                     return offer;
                 }
             }
-            let next = inner.next(&visit.blas.triangle_bvh, &visit.box_ray, found.limit());
-            *primitives = next.clone().unwrap_or_default();
-            if next.is_none() {
-                break;
-            }
+            let Some(box_ray) = object_box_ray else { break };
+            let Some(leaf) = walk.next(&visit.blas.triangle_bvh, box_ray, found.limit(), *floor) else { break };
+            *pending = visit.triangles(leaf);
         }
-        self.begin_aabbs();
+        self.stage = Stage::Outside;
         None
     }
 
     /// The next box of the instance that the ray may meet. If there is none the stage is left.
     fn aabbs(&mut self, counters: &mut Counters) -> Option<AabbCandidate> {
-        let Self { found, visit: Some(visit), inner, primitives, .. } = self else { return None };
-        loop {
-            for (slot, aabb) in primitives.clone().zip(visit.blas.aabbs.get(primitives.clone()).unwrap_or_default()) {
-                if !visit.box_ray.meets(&aabb.planes, found.limit()) {
-                    continue;
-                }
-                if let Some(offer) = found.aabb(visit, aabb, counters) {
-                    primitives.start = slot + 1;
-                    return Some(offer);
-                }
+        let Self { found, visit: Some(visit), object_box_ray: Some(box_ray), walk, floor, .. } = self else {
+            return None;
+        };
+        while let Some(slot) = walk.next(&visit.blas.aabb_bvh, box_ray, found.limit(), *floor) {
+            let Some(aabb) = visit.blas.aabbs.get(slot) else { continue };
+            if !box_ray.meets(&aabb.planes, found.limit()) {
+                continue;
             }
-            let next = inner.next(&visit.blas.aabb_bvh, &visit.box_ray, found.limit());
-            *primitives = next.clone().unwrap_or_default();
-            if next.is_none() {
-                break;
+            if let Some(offer) = found.aabb(visit, aabb, counters) {
+                return Some(offer);
             }
         }
         self.stage = Stage::Outside;
@@ -243,17 +214,15 @@ impl<'s> Search<'s> {
     }
 }
 
-impl Scene {
-    /// The way into the instance in a slot at a time, if there is one.
-    fn to_object(&self, slot: usize, instance: &Instance, time: f32) -> Option<WorldToObject> {
-        match instance.to_object {
-            Some(known) => Some(known),
-            None => WorldToObject::new(&self.placements.get(slot)?.at(time)),
-        }
-    }
-}
-
 impl Found<'_> {
+    /// Whether a flag says that such primitives are left out.
+    const fn passes_over(&self, primitives: Primitives) -> bool {
+        self.options.flags.contains(match primitives {
+            Primitives::Triangles => RayFlags::SKIP_TRIANGLES,
+            Primitives::Aabbs => RayFlags::SKIP_AABBS,
+        })
+    }
+
     /// The largest `t` that is still of interest.
     pub(crate) fn limit(&self) -> f32 {
         self.closest.as_ref().map_or(self.ray.t_max(), |hit| hit.t)
@@ -272,7 +241,8 @@ impl Found<'_> {
         if !(hit.t > self.ray.t_min() && hit.t <= self.limit() && hit.t < self.ray.t_max()) {
             return ControlFlow::Continue(());
         }
-        let front = visit.facing.is_front(hit.front);
+        let facing = Facing::new(self.options.flags, visit.instance.flags);
+        let front = facing.is_front(hit.front);
         let mut candidate = Candidate {
             t: hit.t,
             barycentrics: hit.barycentrics,
@@ -288,18 +258,19 @@ impl Found<'_> {
             return ControlFlow::Continue(());
         }
         counters.candidates += 1;
-        if visit.facing.culls(front) {
+        if facing.culls(front) {
             counters.culled_by_facing += 1;
             return ControlFlow::Continue(());
         }
         let Some(geometry) = visit.blas.geometries.get(triangle.geometry as usize) else {
             return ControlFlow::Continue(());
         };
-        if self.options.micromaps && !visit.opacity.disable_micromaps {
+        let instance = flags::instance_opacity(visit.instance.flags);
+        if self.options.micromaps && !instance.disable_micromaps {
             let micromap = geometry.micromap.and_then(|micromap| self.scene.micromaps.get(micromap as usize));
             candidate.micromap = triangle.opacity.state(micromap, hit.barycentrics, self.scene.tie_break);
         }
-        match self.resolve(visit, candidate.micromap, geometry.opaque) {
+        match self.resolve(instance, candidate.micromap, geometry.opaque) {
             OpacityResult::Ignored => counters.ignored += 1,
             OpacityResult::Culled => counters.culled_by_opacity += 1,
             OpacityResult::NonOpaque => return ControlFlow::Break(Some(candidate)),
@@ -317,7 +288,8 @@ impl Found<'_> {
     /// The box as it is offered, unless a flag culls it.
     fn aabb(&self, visit: &Visit<'_>, aabb: &Aabb, counters: &mut Counters) -> Option<AabbCandidate> {
         let geometry = visit.blas.geometries.get(aabb.geometry as usize)?;
-        let result = self.resolve(visit, None, geometry.opaque);
+        let instance = flags::instance_opacity(visit.instance.flags);
+        let result = self.resolve(instance, None, geometry.opaque);
         if !matches!(result, OpacityResult::Opaque | OpacityResult::NonOpaque) {
             counters.culled_aabbs += 1;
             return None;
@@ -339,8 +311,13 @@ impl Found<'_> {
         })
     }
 
-    fn resolve(&self, visit: &Visit<'_>, micromap: Option<OpacityState>, geometry_opaque: bool) -> OpacityResult {
-        CandidateOpacity { micromap, geometry_opaque, instance: visit.opacity, ray: self.opacity }.resolve()
+    fn resolve(
+        &self,
+        instance: InstanceOpacity,
+        micromap: Option<OpacityState>,
+        geometry_opaque: bool,
+    ) -> OpacityResult {
+        CandidateOpacity { micromap, geometry_opaque, instance, ray: self.opacity }.resolve()
     }
 
     /// The hit that is reported for a box as a candidate, if it lies in the range that is left.

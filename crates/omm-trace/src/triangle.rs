@@ -11,6 +11,10 @@
 //! - a point exactly on an edge counts as moved by (ε, ε²). So of two triangles with a common edge that lie on both
 //!   sides of it exactly one is hit, and likewise around a common vertex.
 
+mod packet;
+
+pub(crate) use packet::{Packet, PacketRay};
+
 /// A ray in the space of a bottom-level structure, made ready for triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TriangleRay {
@@ -36,6 +40,30 @@ enum Order {
 }
 
 impl Order {
+    /// For each main axis: if the direction's main component is positive, and if it is not.
+    const BY_MAIN_AXIS: [[Self; 2]; 3] = [[Self::Yzx, Self::Zyx], [Self::Zxy, Self::Xzy], [Self::Xyz, Self::Yxz]];
+
+    /// The order for a direction, without a branch: instances are turned every way, so none would be foreseen.
+    #[inline]
+    fn of(direction: [f64; 3]) -> Self {
+        let [x, y, z] = direction.map(f64::abs);
+        let main = usize::from(!((x >= y) & (x >= z))) << usize::from(y < z);
+        let not_positive = usize::from(direction[main] <= 0.0);
+        Self::BY_MAIN_AXIS[main][not_positive]
+    }
+
+    /// The axes in their new order.
+    const fn axes(self) -> [usize; 3] {
+        match self {
+            Self::Yzx => [1, 2, 0],
+            Self::Zyx => [2, 1, 0],
+            Self::Zxy => [2, 0, 1],
+            Self::Xzy => [0, 2, 1],
+            Self::Xyz => [0, 1, 2],
+            Self::Yxz => [1, 0, 2],
+        }
+    }
+
     fn apply(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Yzx => [y, z, x],
@@ -62,17 +90,7 @@ pub(crate) struct TriangleHit {
 impl TriangleRay {
     /// The ray through `origin` along `direction`, which is not zero.
     pub(crate) fn new(origin: [f64; 3], direction: [f64; 3]) -> Self {
-        let [x, y, z] = direction.map(f64::abs);
-        let positive = |component: f64| component > 0.0;
-        let order = if x >= y && x >= z {
-            if positive(direction[0]) { Order::Yzx } else { Order::Zyx }
-        } else if y >= z {
-            if positive(direction[1]) { Order::Zxy } else { Order::Xzy }
-        } else if positive(direction[2]) {
-            Order::Xyz
-        } else {
-            Order::Yxz
-        };
+        let order = Order::of(direction);
         let [a, b, main] = order.apply(direction);
         Self { origin, order, shear: [a / main, b / main], scale: 1.0 / main }
     }

@@ -121,6 +121,34 @@ fn aim() -> impl Strategy<Value = Aim> {
         .prop_map(|(from, instance, triangle, weights)| Aim { from, instance, triangle, weights })
 }
 
+/// Each ray meets what it meets in the pieces.
+fn compare(
+    geometries: &[Vec<Vertices>],
+    transforms: &[TransformMatrix],
+    rays: impl IntoIterator<Item = Ray>,
+    opaque: bool,
+) -> Result<(), TestCaseError> {
+    let mut memory = Memory::default();
+    let flags = if opaque { GeometryFlags::OPAQUE } else { GeometryFlags::empty() };
+    let blas = memory.blas(geometries.iter().map(|mesh| triangles(flags, mesh.iter().copied())).collect());
+    let instances = transforms.iter().map(|&transform| Instance { transform, ..instance(blas) });
+    let scene = memory.scene(instances.collect());
+    let pieces = pieces(geometries, transforms);
+    for ray in rays {
+        let alone = pieces.iter().filter_map(|piece| closest(piece, &ray));
+        let rank = |hit: &Hit| (hit.t, hit.instance_id, hit.geometry_index, hit.primitive_id);
+        let expected = alone.min_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap());
+        let found = closest(&scene, &ray);
+        prop_assert_eq!(found.map(|hit| hit.candidate), expected.map(|hit| hit.candidate));
+        if !opaque {
+            let mut expected: Vec<_> = pieces.iter().flat_map(|piece| everything(piece, &ray)).collect();
+            expected.sort_unstable();
+            prop_assert_eq!(everything(&scene, &ray), expected);
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(192))]
 
@@ -132,26 +160,27 @@ proptest! {
         aims in prop::collection::vec(aim(), 24),
         opaque in any::<bool>(),
     ) {
-        let mut memory = Memory::default();
-        let flags = if opaque { GeometryFlags::OPAQUE } else { GeometryFlags::empty() };
-        let blas = memory.blas(geometries.iter().map(|mesh| triangles(flags, mesh.iter().copied())).collect());
-        let instances = transforms.iter().map(|&transform| Instance { transform, ..instance(blas) });
-        let scene = memory.scene(instances.collect());
-        let pieces = pieces(&geometries, &transforms);
-
         let aimed = aims.iter().filter_map(|aim| aim.ray(&geometries, &transforms));
-        for ray in rays.into_iter().chain(aimed) {
-            let alone = pieces.iter().filter_map(|piece| closest(piece, &ray));
-            let rank = |hit: &Hit| (hit.t, hit.instance_id, hit.geometry_index, hit.primitive_id);
-            let expected = alone.min_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap());
-            let found = closest(&scene, &ray);
-            prop_assert_eq!(found.map(|hit| hit.candidate), expected.map(|hit| hit.candidate));
-            if !opaque {
-                let mut expected: Vec<_> = pieces.iter().flat_map(|piece| everything(piece, &ray)).collect();
-                expected.sort_unstable();
-                prop_assert_eq!(everything(&scene, &ray), expected);
-            }
-        }
+        compare(&geometries, &transforms, rays.into_iter().chain(aimed), opaque)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { max_shrink_iters: 64, ..ProptestConfig::with_cases(3) })]
+
+    /// Meshes of more leaves than an instance has parts.
+    #[test]
+    fn nothing_is_lost_below_a_part(
+        mesh in prop::collection::vec((point(), prop::array::uniform2(prop::array::uniform3(-0.5_f32..0.5))), 350..450),
+        transforms in prop::collection::vec(transform(), 1..3),
+        aims in prop::collection::vec(aim(), 32),
+        opaque in any::<bool>(),
+    ) {
+        let corner = |[x, y, z]: [f32; 3], [dx, dy, dz]: [f32; 3]| [x + dx, y + dy, z + dz];
+        let mesh = mesh.into_iter().map(|(at, [b, c])| [at, corner(at, b), corner(at, c)]).collect();
+        let geometries = [mesh];
+        let aimed = aims.iter().filter_map(|aim| aim.ray(&geometries, &transforms));
+        compare(&geometries, &transforms, aimed, opaque)?;
     }
 }
 

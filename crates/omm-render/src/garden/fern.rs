@@ -5,7 +5,7 @@
 use crate::random::Random;
 
 /// Side of the square texture in texels.
-pub const SIZE: u32 = 1024;
+pub const SIZE: u32 = 2048;
 
 /// One of the four maps that a frond is made of: `x' = a x + b y`, `y' = c x + d y + rise`, chosen with a weight out of 100.
 struct Map {
@@ -26,7 +26,7 @@ const MAPS: [Map; 4] = [
 ];
 
 /// Points plotted.
-const POINTS: u32 = 3_000_000;
+const POINTS: u32 = 12_000_000;
 
 /// The texture's alpha, row by row from the top (v = 0) down; the frond's root is at the bottom middle.
 pub fn alpha() -> Vec<u8> {

@@ -15,40 +15,46 @@ fn visited(bvh: &Bvh, origin: [f64; 3], direction: [f64; 3], range: Range<f32>) 
     let mut found = Vec::new();
     let mut walk = Walk::new();
     walk.begin(bvh);
-    while let Some(slots) = walk.next(bvh, &ray, range.end) {
-        found.extend_from_slice(&bvh.items()[slots]);
+    while let Some(leaf) = walk.next(bvh, &ray, range.end, 0) {
+        found.extend_from_slice(&bvh.items[bvh.slots(leaf)]);
     }
-    assert_eq!(walk.next(bvh, &ray, range.end), None);
+    assert_eq!(walk.next(bvh, &ray, range.end, 0), None);
     found.sort_unstable();
     found
 }
 
-fn depth(bvh: &Bvh, node: Node) -> usize {
-    if node.count > 0 {
-        return 0;
+/// How much a walk through all below a node can have open at most.
+fn most_open(bvh: &Bvh, node: Node) -> usize {
+    if node.as_leaf().is_some() {
+        return 1;
     }
-    let [left, right] = bvh.pairs[node.first as usize].nodes;
-    1 + depth(bvh, left).max(depth(bvh, right))
+    let nodes = bvh.quads[node.0 as usize >> 1].nodes.into_iter().filter(|node| *node != Node::NONE);
+    nodes.clone().count() - 1 + nodes.map(|node| most_open(bvh, node)).max().unwrap()
+}
+
+/// A tree over boxes of any size.
+fn build(boxes: &[Bounds], leaf: u32) -> Bvh {
+    Bvh::build(boxes, leaf, unit(boxes)).unwrap()
 }
 
 fn all(bvh: &Bvh) -> Vec<u32> {
-    let mut items = bvh.items().to_vec();
+    let mut items = bvh.items.clone();
     items.sort_unstable();
     items
 }
 
 #[test]
 fn nothing_and_one() {
-    let empty = Bvh::build(&[], 2).unwrap();
+    let empty = build(&[], 2);
     assert_eq!(visited(&empty, [0.0; 3], [1.0, 0.0, 0.0], 0.0..1.0), []);
-    let one = Bvh::build(&[boxed([0.0; 3], [0.0; 3])], 2).unwrap();
+    let one = build(&[boxed([0.0; 3], [0.0; 3])], 2);
     assert_eq!(visited(&one, [0.0; 3], [1.0, 0.0, 0.0], 0.0..1.0), [0]);
 }
 
 #[test]
 fn a_row_is_pruned() {
     let boxes: Vec<_> = (0..64).map(|i| boxed([f64::from(i), 0.0, 0.0], [f64::from(i) + 0.5, 1.0, 1.0])).collect();
-    let bvh = Bvh::build(&boxes, 2).unwrap();
+    let bvh = build(&boxes, 2);
     assert_eq!(all(&bvh), (0..64).collect::<Vec<_>>());
     let down = visited(&bvh, [10.25, 0.5, 5.0], [0.0, 0.0, -1.0], 0.0..f32::INFINITY);
     assert!(down.contains(&10) && down.len() <= 4, "{down:?}");
@@ -60,15 +66,15 @@ fn a_row_is_pruned() {
 #[test]
 fn a_lower_limit_prunes_what_is_left() {
     let boxes: Vec<_> = (0..64).map(|i| boxed([f64::from(i), 0.0, 0.0], [f64::from(i) + 0.5, 1.0, 1.0])).collect();
-    let bvh = Bvh::build(&boxes, 2).unwrap();
+    let bvh = build(&boxes, 2);
     let ray = BoxRay::new(&bvh, [-1.0, 0.5, 0.5], [1.0, 0.0, 0.0], 0.0);
     let mut walk = Walk::new();
-    assert_eq!(walk.next(&bvh, &ray, f32::INFINITY), None);
+    assert_eq!(walk.next(&bvh, &ray, f32::INFINITY, 0), None);
     walk.begin(&bvh);
-    assert!(walk.next(&bvh, &ray, f32::INFINITY).is_some());
-    assert_eq!(walk.next(&bvh, &ray, 0.5), None);
+    assert!(walk.next(&bvh, &ray, f32::INFINITY, 0).is_some());
+    assert_eq!(walk.next(&bvh, &ray, 0.5, 0), None);
     walk.begin(&bvh);
-    assert!(walk.next(&bvh, &ray, 1.5).is_some());
+    assert!(walk.next(&bvh, &ray, 1.5, 0).is_some());
 }
 
 #[test]
@@ -78,19 +84,36 @@ fn equal_and_even_boxes_make_shallow_trees() {
     let points = vec![boxed([0.0; 3], [0.0; 3]); 5_000];
     let nested: Vec<_> = (-140..127).map(|i| boxed([0.0; 3], [2.0_f64.powi(i); 3])).collect();
     for boxes in [equal, row, points, nested] {
-        let bvh = Bvh::build(&boxes, 2).unwrap();
-        assert!(depth(&bvh, bvh.root.unwrap()) <= 40, "{} boxes", boxes.len());
+        let bvh = build(&boxes, 2);
+        assert!(most_open(&bvh, bvh.root.unwrap()) <= 48, "{} boxes", boxes.len());
         assert_eq!(all(&bvh).len(), boxes.len());
     }
 }
 
 #[test]
-fn a_depth_limit_is_kept() {
+fn a_limit_to_what_is_open_is_kept() {
     let boxes: Vec<_> = (0..100).map(|i| boxed([f64::from(i * i), 0.0, 0.0], [f64::from(i * i), 1.0, 1.0])).collect();
-    let halves = Bvh::build_within(&boxes, 4, 5).unwrap();
-    assert!(depth(&halves, halves.root.unwrap()) <= 5);
+    let build = |max_open| Bvh::build_within(&boxes, 4, unit(&boxes), max_open);
+    assert!(most_open(&build(MAX_OPEN).unwrap(), build(MAX_OPEN).unwrap().root.unwrap()) > 8);
+    let halves = build(8).unwrap();
+    assert!(most_open(&halves, halves.root.unwrap()) <= 8);
     assert_eq!(all(&halves), (0..100).collect::<Vec<_>>());
-    assert!(Bvh::build_within(&boxes, 4, 4).is_none());
+    assert!(build(7).is_none());
+}
+
+#[test]
+fn parts_have_everything_once() {
+    let boxes: Vec<_> = (0..100).map(|i| boxed([f64::from(i * i), 0.0, 0.0], [f64::from(i * i), 1.0, 1.0])).collect();
+    let bvh = build(&boxes, 4);
+    for count in 0..40 {
+        let mut parts = bvh.cut(count);
+        assert!(parts.len() <= count.max(1) && parts.len() + 3 > count.min(25), "{count}: {}", parts.len());
+        parts.sort_unstable_by_key(|part| part.slots.start);
+        let slots: Vec<_> = parts.into_iter().flat_map(|part| part.slots).collect();
+        assert_eq!(slots, (0..100).collect::<Vec<_>>());
+    }
+    assert_eq!(build(&[], 4).cut(9), []);
+    assert_eq!(build(&boxes[..1], 4).cut(9).len(), 1);
 }
 
 #[test]
@@ -100,11 +123,14 @@ fn huge_and_tiny_numbers_lose_nothing() {
         let boxes: Vec<_> = [-1.0, -0.5, 0.0, 0.5]
             .map(|x| boxed([x * unit, -unit, -unit], [x * unit + 0.25 * unit, unit, unit]))
             .into();
-        let bvh = Bvh::build_within(&boxes, 4, 8).unwrap();
+        let bvh = build(&boxes, 4);
         for direction in [tiny, 1.0, max] {
             let found = visited(&bvh, [-2.0 * unit, unit, 0.0], [direction, 0.0, 0.0], 0.0..f32::INFINITY);
             assert_eq!(found, [0, 1, 2, 3], "unit {unit:e} direction {direction:e}");
         }
+        // Further away than the numbers of the tree reach every box is met, and no other.
+        let beyond = visited(&bvh, [-1e30 * unit, 1e36, 0.0], [1.0, 0.0, 0.0], 0.0..f32::INFINITY);
+        assert!(beyond == [0, 1, 2, 3] || unit > 1e-3, "unit {unit:e}: {beyond:?}");
         let far = visited(&bvh, [-1e30 * unit, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0..f32::INFINITY);
         assert_eq!(far, [0, 1, 2, 3]);
         // Beyond the numbers everything may be met.
@@ -129,7 +155,7 @@ proptest! {
         direction in corner(),
         t in 0_u8..=20,
         exponent in -30_i32..=30,
-        max_depth in prop_oneof![Just(MAX_DEPTH), Just(6)],
+        max_open in prop_oneof![Just(MAX_OPEN), Just(8)],
     ) {
         prop_assume!(direction != [0.0; 3]);
         let unit = 2.0_f64.powi(exponent);
@@ -141,7 +167,7 @@ proptest! {
         });
         let origin: [f64; 3] = std::array::from_fn(|axis| point[axis] - f64::from(t) * direction[axis] * unit);
         let direction = direction.map(|x| x * unit);
-        let bvh = Bvh::build_within(&boxes, 4, max_depth).unwrap();
+        let bvh = Bvh::build_within(&boxes, 4, super::unit(&boxes), max_open).unwrap();
         let t = f32::from(t);
         for range in [t..t, 0.0..t, t..f32::INFINITY] {
             prop_assert!(visited(&bvh, origin, direction, range).contains(&(chosen as u32)));

@@ -1,6 +1,7 @@
 //! Reading a scene out of memory.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use omm_layout::object::{
     BlasObject, GeometryView, MicromapObject, ObjectHeader, StoredTriangle, TlasObject, TriangleVertices,
@@ -10,13 +11,15 @@ use omm_model::special_index::TriangleMap;
 use omm_model::vk::{self, DeviceAddress, GeometryFlags};
 
 use super::{Aabb, Blas, Geometry, Instance, Scene, Triangle};
-use crate::bvh::{Bounds, Bvh};
+use crate::bvh::{Bounds, Bvh, unit};
 use crate::error::{LoadError, LoadErrorKind, ObjectPath};
 use crate::opacity::{Micromap, TriangleOpacity};
 use crate::placement::Placement;
 use crate::transform::WorldToObject;
+use crate::triangle::Packet;
 
-/// Triangles in a leaf of a hierarchy, at most. Boxes and instances are dearer to visit: they are alone.
+/// Triangles in a leaf of a hierarchy, at most. A packet has room for no more. Boxes and parts of
+/// instances are dearer to visit: they are alone.
 const TRIANGLES_IN_LEAF: u32 = 4;
 
 /// What was read so far.
@@ -44,7 +47,7 @@ pub(super) fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Scene, 
     let bytes = loader.read(tlas).map_err(at)?;
     let object = TlasObject::read(bytes).map_err(|error| at(error.into()))?;
 
-    let (mut boxes, mut boxed, mut unboxed) = (Vec::new(), Vec::new(), Vec::new());
+    let mut instances = Vec::new();
     for (instance_id, instance) in (0..).zip(object.instances()) {
         let address = DeviceAddress(instance.acceleration_structure_reference());
         if address.is_null() {
@@ -67,28 +70,21 @@ pub(super) fn load(view: &dyn MemoryView, tlas: DeviceAddress) -> Result<Scene, 
             mask: rest.mask,
             flags: rest.flags,
         };
-        match placement.bounds(&bounds) {
-            Some(bounds) => {
-                boxes.push(bounds);
-                boxed.push((reachable, placement));
-            }
-            None => unboxed.push((reachable, placement)),
-        }
+        let bounds = placement.bounds(&bounds).filter(|_| placement.is_well_conditioned());
+        instances.push((reachable, placement, bounds));
     }
 
     let mut scene = loader.scene;
-    scene.bvh = Bvh::build(&boxes, 1).ok_or_else(|| at(LoadErrorKind::TooMany { found: boxes.len() as u64 }))?;
-    scene.bounds = boxes.into_iter().reduce(Bounds::union).filter(|_| unboxed.is_empty());
-    let ordered = in_order_of(&scene.bvh, &boxed);
-    scene.boxed = ordered.len();
     scene.slots = vec![u32::MAX; object.instance_count() as usize];
-    for (slot, (instance, placement)) in (0..).zip(ordered.into_iter().chain(unboxed)) {
+    scene.bounds = instances.iter().map(|(.., bounds)| *bounds).reduce(|a, b| Some(a?.union(b?))).flatten();
+    for (slot, (instance, placement, _)) in (0..).zip(instances) {
         if let Some(known) = scene.slots.get_mut(instance.instance_id as usize) {
             *known = slot;
         }
         scene.instances.push(instance);
         scene.placements.push(placement);
     }
+    scene.refer().map_err(at)?;
     Ok(scene)
 }
 
@@ -202,16 +198,24 @@ impl Blas {
             triangles.iter().filter_map(|(start, end)| around(&mut start.vertices.iter().chain(end))).collect();
         let aabb_box = |aabb: &Aabb| around(&mut [aabb.min, aabb.max].iter());
         let aabb_boxes: Vec<_> = aabbs.iter().filter_map(aabb_box).collect();
+        // One unit for both trees, so that a ray is made ready for both at once.
+        let scale = unit(triangle_boxes.iter().chain(&aabb_boxes));
         let build = |boxes: &[Bounds], leaf| {
-            Bvh::build(boxes, leaf).ok_or(LoadErrorKind::TooMany { found: boxes.len() as u64 })
+            Bvh::build(boxes, leaf, scale).ok_or(LoadErrorKind::TooMany { found: boxes.len() as u64 })
         };
         self.triangle_bvh = build(&triangle_boxes, TRIANGLES_IN_LEAF)?;
-        for (triangle, end) in in_order_of(&self.triangle_bvh, triangles) {
+        for (triangle, end) in self.triangle_bvh.in_order(triangles) {
             self.triangles.push(triangle);
             self.ends.extend(moves.then_some(end));
         }
+        let packet = |slots: Range<usize>| {
+            self.triangles.get(slots).unwrap_or_default().iter().map(|triangle| &triangle.vertices)
+        };
+        let packets = self.triangle_bvh.leaves().map(|slots| Packet::new(packet(slots)));
+        self.packets = packets.filter(|_| !moves).collect();
+        self.largest = triangle_boxes.iter().fold(0.0, |largest, bounds| bounds.largest().max(largest));
         self.aabb_bvh = build(&aabb_boxes, 1)?;
-        self.aabbs = in_order_of(&self.aabb_bvh, aabbs);
+        self.aabbs = self.aabb_bvh.in_order(aabbs);
         for aabb in &mut self.aabbs {
             if let Some(bounds) = aabb_box(aabb) {
                 aabb.planes = self.aabb_bvh.planes_of(&bounds);
@@ -220,9 +224,4 @@ impl Blas {
         self.bounds = triangle_boxes.into_iter().chain(aabb_boxes).reduce(Bounds::union);
         Ok(())
     }
-}
-
-/// Items in the order of the slots of the tree that was built over them.
-fn in_order_of<T: Copy>(bvh: &Bvh, items: &[T]) -> Vec<T> {
-    bvh.items().iter().filter_map(|&item| items.get(item as usize)).copied().collect()
 }

@@ -93,6 +93,17 @@ fn what_rounding_hides_decides() {
     assert_eq!(edge_sign(p, p, 0.0), 0);
 }
 
+#[test]
+fn packets_pass_over_what_is_not_near() {
+    let [a, b, c] = UNIT;
+    let beside = UNIT.map(|[x, y, z]| [x + 0.3, y, z]);
+    let packet = Packet::new(&[UNIT, beside, [a, c, b], beside.map(|[x, y, z]| [-x, y, -z])]);
+    let ray = |largest| PacketRay::new([0.25, 0.25, 8.0], [0.0, 0.0, -1.0], largest);
+    assert_eq!(ray(1.3).may_meet(&packet), 0b0101);
+    // With numbers whose products are none nothing is passed over.
+    assert_eq!(ray(1e30).may_meet(&packet), 0b1111);
+}
+
 fn small() -> impl Strategy<Value = f32> {
     prop_oneof![(-4_i8..=4).prop_map(f32::from), -4.0_f32..4.0]
 }
@@ -139,6 +150,33 @@ proptest! {
             ray.intersect(&triangle).is_some()
         }).count();
         prop_assert_eq!(hits, 1);
+    }
+
+    /// What a packet says to be missed is missed, wherever the ray passes: near an edge, near a vertex, in a plane.
+    #[test]
+    fn packets_lose_nothing(
+        triangles in prop::collection::vec([point(), point(), point()], 1..=4),
+        which in any::<prop::sample::Index>(),
+        weights in (prop_oneof![Just(0.0_f32), Just(0.5), Just(1.0), 0.0_f32..1.0], 0.0_f32..1.0),
+        beside in prop_oneof![2 => Just(0.0_f32), 1 => -1e-5_f32..1e-5],
+        origin in point(),
+        exponents in prop::array::uniform2(prop_oneof![4 => Just(0), 1 => -60_i32..=60, 1 => -149_i32..=125]),
+    ) {
+        let [size, far] = exponents.map(|exponent| 2.0_f64.powi(exponent));
+        let triangles: Vec<_> = triangles.iter().map(|it| it.map(|p| p.map(|x| (f64::from(x) * size) as f32))).collect();
+        let [a, b, c] = triangles[which.index(triangles.len())].map(|p| p.map(f64::from));
+        let (u, v) = (f64::from(weights.0), f64::from(weights.1));
+        let origin = origin.map(|x| f64::from(x) * far);
+        let direction: [f64; 3] = std::array::from_fn(|i| {
+            a[i] + u * (b[i] - a[i]) + v * (1.0 - u) * (c[i] - a[i]) + f64::from(beside) * size - origin[i]
+        });
+        prop_assume!(direction.iter().any(|x| *x != 0.0));
+        let ray = TriangleRay::new(origin, direction);
+        let largest = triangles.as_flattened().as_flattened().iter().fold(0.0, |largest: f32, x| largest.max(x.abs()));
+        let met = PacketRay::new(origin, direction, largest.into()).may_meet(&Packet::new(&triangles));
+        for (lane, triangle) in triangles.iter().enumerate() {
+            prop_assert!(ray.intersect(triangle).is_none() || met >> lane & 1 == 1, "{triangle:?} {ray:?}");
+        }
     }
 
     /// Renaming the vertices changes names only.
