@@ -23,7 +23,7 @@ use crate::statistics::BakeStatistics;
 pub use crate::schedule::WorkEstimate;
 
 /// Bytes of data that each thread bakes, at least a block, before blocks are added to the array.
-const BYTES_PER_THREAD: usize = 1 << 16;
+const BYTES_PER_THREAD: usize = 1 << 18;
 
 /// What a bake made.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -109,7 +109,7 @@ pub fn estimate(input: &BakeInput<'_>, options: &BakeOptions) -> Result<WorkEsti
 /// Bakes opacity micromaps for the triangles of `input`.
 ///
 /// The result depends on the arguments alone, not on the number of threads: rayon's current pool is used. Beside the input and the
-/// result, memory holds a bit for each texel, a few words for each triangle and about one block for each thread. `progress` is called from any
+/// result, memory holds a bit for each texel, a few words for each triangle and about two blocks for each thread. `progress` is called from any
 /// thread, now and then, in no order; to ignore it give `&|_| {}`. If it answers [`ControlFlow::Break`], no further triangle is
 /// begun.
 ///
@@ -164,17 +164,19 @@ fn for_each_block<A: ProgressAnswer>(
     layers: &Layers<'_>,
     options: &BakeOptions,
     watch: &Watch<'_, A>,
-    mut baked: impl FnMut(usize, &Block) -> Result<(), BakeError>,
+    mut baked: impl FnMut(usize, &Block) -> Result<(), BakeError> + Send,
 ) -> Result<(), BakeError> {
     let key = |(number, job): (u32, &Job)| (options.order.key(job, schedule.mips[0], options.sampler), number);
     let mut order: Vec<(u64, u32)> = (0..).zip(&schedule.jobs).map(key).collect();
     order.sort_unstable();
     let finished = |count| watch.advance(count);
-    let mut rest = order.as_slice();
-    while let Some(&(_, first)) = rest.first() {
-        let Job { level, format, .. } = schedule.jobs[first as usize];
-        let block_bytes = format.data_size(level) as usize;
-        let batch = rayon::current_num_threads() * (BYTES_PER_THREAD / block_bytes).max(1);
+    // While one batch is baked the one before it is taken, so that no thread waits for that.
+    let (mut rest, mut before) = (order.as_slice(), (order.get(..0).unwrap_or_default(), Vec::new()));
+    while !rest.is_empty() || !before.0.is_empty() {
+        let batch = rest.first().map_or(0, |&(_, first)| {
+            let Job { level, format, .. } = schedule.jobs[first as usize];
+            rayon::current_num_threads() * (BYTES_PER_THREAD / format.data_size(level) as usize).max(1)
+        });
         let (now, later) = rest.split_at(batch.min(rest.len()));
         let bake = |patch: &mut Patch, &(_, job): &(u64, u32)| {
             if watch.is_cancelled() {
@@ -182,14 +184,13 @@ fn for_each_block<A: ProgressAnswer>(
             }
             layers.bake(&schedule.jobs[job as usize], patch, &finished)
         };
-        let blocks: Vec<Block> = now.par_iter().map_init(Patch::new, bake).collect();
+        let take = || before.0.iter().zip(&before.1).try_for_each(|(&(_, job), block)| baked(job as usize, block));
+        let (blocks, taken) = rayon::join(|| now.par_iter().map_init(Patch::new, bake).collect(), take);
+        taken?;
         if watch.is_cancelled() {
             return Err(BakeError::Cancelled);
         }
-        for (&(_, job), block) in now.iter().zip(&blocks) {
-            baked(job as usize, block)?;
-        }
-        rest = later;
+        (before, rest) = ((now, blocks), later);
     }
     Ok(())
 }
@@ -208,8 +209,13 @@ impl<'a, A: ProgressAnswer> Watch<'a, A> {
     }
 
     fn advance(&self, count: u64) {
-        let done = self.done.fetch_add(count, Ordering::Relaxed).saturating_add(count);
-        let total = self.total.load(Ordering::Relaxed);
+        let before = self.done.fetch_add(count, Ordering::Relaxed);
+        let (done, total) = (before.saturating_add(count), self.total.load(Ordering::Relaxed));
+        // Who shows it may need a lock: some thousand times are enough.
+        let step = total / 4096 + 1;
+        if before / step == done / step {
+            return;
+        }
         if (self.progress)(Progress { done, total }).flow().is_break() {
             self.cancelled.store(true, Ordering::Relaxed);
         }

@@ -3,7 +3,9 @@
 use omm_model::format::OpacityMicromapFormat;
 use omm_model::level::SubdivisionLevel;
 use omm_model::special_index::OpacityMicromapSpecialIndex;
+use omm_model::triangle::MicromapTriangle;
 use omm_model::usage;
+use rayon::prelude::*;
 
 use crate::bake::BakeOutput;
 use crate::block::{Block, Tally};
@@ -77,13 +79,21 @@ impl<'a> Collector<'a> {
                 }
             }
         }
-        let mut array_states = StateCounts::default();
-        for (triangle, uses) in triangles.iter().zip(&uses) {
+        let counted = |[mut in_array, mut in_mesh]: [StateCounts; 2], (triangle, uses): (&MicromapTriangle, &u32)| {
             let data = array.get(triangle.data_offset as usize..).unwrap_or_default();
             let data = data.get(..triangle.data_size() as usize).unwrap_or_default();
             let states = packed::count(data, triangle.format, triangle.subdivision_level);
-            array_states.add_all(states, 1);
-            triangle_states.add_all(states, (*uses).into());
+            in_array.add_all(states, 1);
+            in_mesh.add_all(states, (*uses).into());
+            [in_array, in_mesh]
+        };
+        // Sums of whole numbers, the same in any order.
+        let parts = triangles.par_iter().zip(&uses).fold(Default::default, counted);
+        let both: Vec<[StateCounts; 2]> = parts.collect();
+        let mut array_states = StateCounts::default();
+        for [in_array, in_mesh] in both {
+            array_states.add_all(in_array, 1);
+            triangle_states.add_all(in_mesh, 1);
         }
         let referred = indices.iter().filter_map(|&index| triangles.get(usize::try_from(index).ok()?)).copied();
         let statistics = BakeStatistics {
