@@ -22,7 +22,7 @@ use crate::statistics::BakeStatistics;
 
 pub use crate::schedule::WorkEstimate;
 
-/// Bytes of data that each thread bakes, at least a block, before blocks are added to the array.
+/// Bytes of data that each thread bakes, at least a block, while those before it are added to the array.
 const BYTES_PER_THREAD: usize = 1 << 18;
 
 /// What a bake made.
@@ -109,7 +109,7 @@ pub fn estimate(input: &BakeInput<'_>, options: &BakeOptions) -> Result<WorkEsti
 /// Bakes opacity micromaps for the triangles of `input`.
 ///
 /// The result depends on the arguments alone, not on the number of threads: rayon's current pool is used. Beside the input and the
-/// result, memory holds a bit for each texel, a few words for each triangle and about two blocks for each thread. `progress` is called from any
+/// result, memory holds a bit for each texel, a few words for each triangle, and for each thread about two blocks or half a megabyte. `progress` is called from any
 /// thread, now and then, in no order; to ignore it give `&|_| {}`. If it answers [`ControlFlow::Break`], no further triangle is
 /// begun.
 ///
@@ -213,7 +213,7 @@ impl<'a, A: ProgressAnswer> Watch<'a, A> {
         let (done, total) = (before.saturating_add(count), self.total.load(Ordering::Relaxed));
         // Who shows it may need a lock: some thousand times are enough.
         let step = total / 4096 + 1;
-        if before / step == done / step {
+        if before / step == done / step && done != total {
             return;
         }
         if (self.progress)(Progress { done, total }).flow().is_break() {
