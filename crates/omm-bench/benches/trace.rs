@@ -15,11 +15,11 @@ fn traversal(criterion: &mut Criterion) {
     group.bench_function("omm-trace", |bencher| bencher.iter(|| opaque.ours()));
     group.bench_function("obvhs", |bencher| bencher.iter(|| opaque.bare()));
     group.finish();
-    let Ok(counters) = garden.picture(&garden.with, SIZE) else { return };
+    let Ok(rays) = garden.rays(SIZE) else { return };
     let mut group = criterion.benchmark_group("garden");
-    group.sample_size(20).throughput(Throughput::Elements(counters.rays));
-    group.bench_function("micromaps", |bencher| bencher.iter(|| garden.picture(&garden.with, SIZE)));
-    group.bench_function("any-hit only", |bencher| bencher.iter(|| garden.picture(&garden.without, SIZE)));
+    group.sample_size(20).throughput(Throughput::Elements(rays.len() as u64));
+    group.bench_function("micromaps", |bencher| bencher.iter(|| garden.trace(&garden.with, &rays)));
+    group.bench_function("any-hit only", |bencher| bencher.iter(|| garden.trace(&garden.without, &rays)));
     group.finish();
 }
 

@@ -1,8 +1,9 @@
 //! Traversal beside that of the crate that its hierarchy comes from, and with micromaps beside without.
 //!
-//! The scene is the garden of `omm_render`. What is compared with [`obvhs`] is one mesh of all its triangles in world space, every
-//! triangle opaque: the other side is the crate's own binary tree with its own build, its own walk and its own triangles, which neither
-//! knows instances nor promises that no ray slips through between triangles.
+//! The scene is the garden of `omm_render`, the rays are those of a picture of it. Micromaps are compared with an any-hit shader that
+//! reads the texture, both without what a picture costs beside its rays. What is compared with [`obvhs`] is one mesh of all its triangles
+//! in world space, every triangle opaque: the other side is the crate's own binary tree with its own build, its own walk and its own
+//! triangles, which neither knows instances nor promises that no ray slips through between triangles.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -16,12 +17,11 @@ use obvhs::triangle::Triangle;
 use omm_bake::{BakeOptions, LevelChoice};
 use omm_device::Device;
 use omm_device::app::App;
-use omm_model::level::SubdivisionLevel;
 use omm_model::profile::DeviceProfile;
 use omm_render::{
     Baked, Built, Mesh, Paint, Part, PictureOptions, Placement, RenderError, RenderScene, Tracer, garden,
 };
-use omm_trace::{Counters, NoShaders, Ray, RayError, Scene, TraceOptions};
+use omm_trace::{Candidate, Counters, NoShaders, Ray, Scene, Shaders, TraceOptions};
 
 /// The garden, built.
 #[derive(Debug)]
@@ -35,17 +35,38 @@ pub struct Garden {
 }
 
 impl Garden {
-    /// Bakes and builds the garden at level 8.
+    /// Bakes and builds the garden.
     ///
     /// # Errors
     /// None in practice.
     pub fn new() -> Result<Self, RenderError> {
         let scene = garden::garden()?;
-        let level = SubdivisionLevel::new(8).unwrap_or_default();
-        let options = BakeOptions { level: LevelChoice::Uniform(level), ..BakeOptions::default() };
+        let options = BakeOptions { level: LevelChoice::Uniform(garden::LEVEL), ..BakeOptions::default() };
         let baked = Baked::new(&scene, &options, &|_, _| {})?;
         let (with, without) = build(&scene, &baked)?;
         Ok(Self { scene, with, without })
+    }
+
+    /// The rays of a picture.
+    ///
+    /// # Errors
+    /// None in practice.
+    pub fn rays(&self, size: [u32; 2]) -> Result<Vec<Aimed>, RenderError> {
+        let tracer = Tracer::new(&self.with, &self.scene)?;
+        aim(&tracer, &self.with, size, &mut |candidate: &Candidate| tracer.alpha_test(candidate))
+    }
+
+    /// Traces rays with the any-hit shader and answers with what happened.
+    ///
+    /// # Errors
+    /// None in practice.
+    pub fn trace(&self, scene: &Scene, rays: &[Aimed]) -> Result<Counters, RenderError> {
+        let tracer = Tracer::new(scene, &self.scene)?;
+        let mut counters = Counters::default();
+        for (ray, options) in rays {
+            black_box(scene.trace(ray, options, &mut |of: &Candidate| tracer.alpha_test(of), &mut counters));
+        }
+        Ok(counters)
     }
 
     /// Traces a picture and answers with what happened; the number of threads is that of rayon's current pool.
@@ -91,6 +112,29 @@ fn build(scene: &RenderScene, baked: &Baked) -> Result<(Scene, Scene), RenderErr
     Ok((Scene::load(&device, built.with.address)?, Scene::load(&device, built.without.address)?))
 }
 
+/// A ray, and how it is traced.
+pub type Aimed = (Ray, TraceOptions);
+
+/// The rays through the middles of pixels, each followed by the one to the sun from where it ends.
+fn aim<S: Shaders>(
+    tracer: &Tracer<'_>,
+    scene: &Scene,
+    size: [u32; 2],
+    shaders: &mut S,
+) -> Result<Vec<Aimed>, RenderError> {
+    let (mut rays, mut counters) = (Vec::new(), Counters::default());
+    for row in 0..size[1] {
+        for column in 0..size[0] {
+            let (ray, options) = tracer.camera_ray([column, row].map(|at| f64::from(at) + 0.5), size)?;
+            rays.push((ray, options));
+            if let Some(hit) = scene.trace(&ray, &options, shaders, &mut counters) {
+                rays.push(tracer.sun_ray(&ray, &hit)?);
+            }
+        }
+    }
+    Ok(rays)
+}
+
 /// The same opaque triangles and the same rays for both.
 pub struct Opaque {
     scene: Scene,
@@ -102,11 +146,11 @@ pub struct Opaque {
 }
 
 impl Opaque {
-    /// The flattened garden, seen through `columns` by `rows` pixels; from where each ray ends another goes to the sun.
+    /// The flattened garden and the rays of a picture of it, all traced to the closest hit.
     ///
     /// # Errors
     /// None in practice.
-    pub fn new(garden: &Garden, [columns, rows]: [u32; 2]) -> Result<Self, RenderError> {
+    pub fn new(garden: &Garden, size: [u32; 2]) -> Result<Self, RenderError> {
         let flat = garden.flattened();
         let parts: Vec<_> = flat.meshes.iter().flat_map(|mesh| &mesh.parts).collect();
         let corner = |part: &Part, corner: u32| part.positions.get(corner as usize).copied().unwrap_or_default();
@@ -121,29 +165,11 @@ impl Opaque {
         let bare_triangles = bare.primitive_indices.iter().filter_map(item).collect();
         let baked = Baked::new(&flat, &BakeOptions::default(), &|_, _| {})?;
         let (scene, _) = build(&flat, &baked)?;
-        let mut opaque = Self { scene, rays: Vec::new(), bare, bare_triangles, bare_rays: Vec::new() };
-        opaque.aim(&flat, [columns, rows])?;
+        let aimed = aim(&Tracer::new(&scene, &flat)?, &scene, size, &mut NoShaders)?;
+        let rays: Vec<_> = aimed.into_iter().map(|(ray, _)| ray).collect();
         let bare_ray = |ray: &Ray| BareRay::new_inf(ray.origin().into(), glam::Vec3A::from(ray.direction()));
-        opaque.bare_rays = opaque.rays.iter().map(bare_ray).collect();
-        Ok(opaque)
-    }
-
-    fn aim(&mut self, flat: &RenderScene, size: [u32; 2]) -> Result<(), RayError> {
-        let mut counters = Counters::default();
-        for row in 0..size[1] {
-            for column in 0..size[0] {
-                let place = [column, row].map(|at| f64::from(at) + 0.5);
-                let ray = Ray::unbounded(flat.camera.eye(), flat.camera.direction(place, size))?;
-                self.rays.push(ray);
-                let hit = self.scene.trace(&ray, &TraceOptions::default(), &mut NoShaders, &mut counters);
-                if let Some(hit) = hit {
-                    let end = ray.at(hit.t);
-                    let start = [0, 1, 2].map(|axis| end[axis] + 1e-3 * flat.sun[axis]);
-                    self.rays.push(Ray::unbounded(start, flat.sun)?);
-                }
-            }
-        }
-        Ok(())
+        let bare_rays = rays.iter().map(bare_ray).collect();
+        Ok(Self { scene, rays, bare, bare_triangles, bare_rays })
     }
 
     /// How many rays there are.
@@ -187,9 +213,10 @@ mod tests {
         assert!(opaque.rays() > 48 * 27 * 3 / 2 && ours > 48 * 27);
         // Theirs may slip through between triangles.
         assert!(ours.abs_diff(bare) * 1000 <= ours, "{ours} {bare}");
-        let (with, without) =
-            (garden.picture(&garden.with, [48, 27]).unwrap(), garden.picture(&garden.without, [48, 27]).unwrap());
-        assert_eq!(with.rays, without.rays);
-        assert!(2 * with.any_hit_calls < without.any_hit_calls);
+        let rays = garden.rays([48, 27]).unwrap();
+        let [with, without] = [&garden.with, &garden.without].map(|scene| garden.trace(scene, &rays).unwrap());
+        assert_eq!((with.rays, with.hits), (without.rays, without.hits));
+        assert!(5 * with.any_hit_calls < without.any_hit_calls);
+        assert_eq!(garden.picture(&garden.with, [48, 27]).unwrap(), with);
     }
 }

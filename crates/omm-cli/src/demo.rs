@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use omm_bake::{BakeOptions, LevelChoice, picture};
-use omm_model::level::SubdivisionLevel;
 use omm_render::{Baked, Mode, PictureOptions, RenderError, Tracer, garden, paper};
 use omm_trace::Scene;
 use serde::Serialize;
@@ -39,12 +38,6 @@ Exit status:
   0  the validator was silent, both pictures are identical, and serialized data survived the round trip
   1  one of these does not hold
   2  could not run";
-
-/// The finest level that the demo bakes.
-pub(crate) const LEVEL: SubdivisionLevel = match SubdivisionLevel::new(8) {
-    Ok(level) => level,
-    Err(_) => SubdivisionLevel::MAX,
-};
 
 /// What happened: `summary.json`.
 #[derive(Debug, Serialize)]
@@ -91,7 +84,7 @@ const SIZE: [u32; 2] = [960, 540];
 /// Runs the demo.
 pub(crate) fn run(args: &DemoArgs, format: Format) -> Result<Outcome, CliError> {
     let scene = garden::garden()?;
-    let options = BakeOptions { level: LevelChoice::Uniform(LEVEL), ..BakeOptions::default() };
+    let options = BakeOptions { level: LevelChoice::Uniform(garden::LEVEL), ..BakeOptions::default() };
 
     let start = Instant::now();
     let progress = Progress::new("baking", 0);

@@ -56,7 +56,7 @@ pub(crate) struct RenderArgs {
     seed: u64,
     #[command(flatten)]
     view: View,
-    /// Subdivision level of every triangle, 0 to 12; chosen by texel footprint if not given, but for the garden, which has 8.
+    /// Subdivision level of every triangle, 0 to 12; chosen by texel footprint if not given, but for the garden, which has 9.
     #[arg(long, value_name = "L", value_parser = level)]
     level: Option<SubdivisionLevel>,
     /// How many threads work; one for each core if 0.
@@ -166,7 +166,7 @@ impl RenderArgs {
 
     fn bake_options(&self) -> BakeOptions {
         let options = BakeOptions::default();
-        let level = self.level.or(if self.scene.is_none() { Some(crate::demo::LEVEL) } else { None });
+        let level = self.level.or(if self.scene.is_none() { Some(garden::LEVEL) } else { None });
         BakeOptions { level: level.map_or(options.level, LevelChoice::Uniform), ..options }
     }
 

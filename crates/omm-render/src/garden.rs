@@ -1,8 +1,9 @@
-//! A scene that needs no file: ferns of many cards on a patch of ground, a camera and a sun.
+//! A scene that needs no file: patches of ferns, which are made of cards, on the ground; a camera and a sun.
 //!
 //! Positions are metres, *y* up. Only basic arithmetic and square roots are used, so that every machine builds the same scene.
 
 use omm_bake::{AddressMode, Filter, Sampler, Texture};
+use omm_model::level::SubdivisionLevel;
 
 use crate::camera::Camera;
 use crate::error::RenderError;
@@ -13,19 +14,29 @@ pub mod fern;
 
 /// The mesh of the ground, which is placed once.
 pub const GROUND: usize = 0;
-/// The mesh of a fern.
-pub const FERN: usize = 1;
+/// The mesh of a patch of ferns. Engines put small plants that do not move into one bottom-level structure, too.
+pub const PATCH: usize = 1;
+
+/// The level that saves nine of ten any-hit calls in the garden.
+pub const LEVEL: SubdivisionLevel = match SubdivisionLevel::new(9) {
+    Ok(level) => level,
+    Err(_) => SubdivisionLevel::MAX,
+};
 
 /// Quads along a frond.
 const SEGMENTS: u32 = 3;
 /// Fronds of a plant.
 const FRONDS: u32 = 7;
-/// Plants along each side of the patch.
-const PLANTS: u32 = 30;
+/// Triangles of a plant.
+pub(crate) const PLANT_TRIANGLES: u32 = 2 * SEGMENTS * FRONDS;
+/// Plants along each side of a patch.
+const PLANTS: u32 = 15;
+/// Patches along each side of the garden.
+const PATCHES: u32 = 2;
 /// Metres between plants.
 const SPACING: f64 = 0.45;
 
-/// The scene: 900 ferns of 42 triangles, all with the same texture, and the ground under them.
+/// The scene: four patches of 225 ferns of 42 triangles, all with the same texture, and the ground under them.
 ///
 /// # Errors
 /// None in practice: the texture has a size, the camera a direction.
@@ -33,9 +44,9 @@ pub fn garden() -> Result<RenderScene, RenderError> {
     Ok(RenderScene {
         alphas: vec![Texture::unorm8(fern::SIZE, fern::SIZE, fern::alpha())?],
         colours: Vec::new(),
-        meshes: vec![Mesh { parts: vec![ground()] }, Mesh { parts: vec![plant()] }],
+        meshes: vec![Mesh { parts: vec![ground()] }, Mesh { parts: vec![patch()] }],
         placements: std::iter::once(Placement { mesh: GROUND, transform: Placement::IDENTITY })
-            .chain(plants())
+            .chain(patches())
             .collect(),
         camera: camera()?,
         sun: [0.48, 0.8, 0.36],
@@ -68,7 +79,7 @@ fn plant() -> Part {
             let along = f64::from(step) / f64::from(SEGMENTS);
             let (away, height) = (0.04 + reach * along, 0.75 * along - 0.42 * along * along);
             for side in [-1.0, 1.0] {
-                // As wide as long as the texture says.
+                // Wide, so that fronds overlap.
                 let half_width = 0.25 * side;
                 let x = out.0 * away - out.1 * half_width;
                 let z = out.1 * away + out.0 * half_width;
@@ -97,23 +108,40 @@ fn ground() -> Part {
     }
 }
 
-/// Where the plants stand: a grid shaken, turned and scaled by chance.
-fn plants() -> Vec<Placement> {
+/// Ferns: a grid shaken, turned and scaled by chance.
+fn patch() -> Part {
+    let fern = plant();
+    let mut all = Part { positions: Vec::new(), uvs: Vec::new(), triangles: Vec::new(), ..fern.clone() };
     let mut random = Random::new(2026);
-    let mut plants = Vec::new();
-    let half = f64::from(PLANTS - 1) / 2.0;
-    for row in 0..PLANTS {
-        for column in 0..PLANTS {
-            let (turn_x, turn_z) = direction(&mut random);
-            let scale = random.between(0.75, 1.35);
-            let x = (f64::from(column) - half + random.between(-0.4, 0.4)) * SPACING;
-            let z = (f64::from(row) - half + random.between(-0.4, 0.4)) * SPACING;
-            let (c, s) = ((turn_x * scale) as f32, (turn_z * scale) as f32);
-            let transform = [[c, 0.0, s, x as f32], [0.0, scale as f32, 0.0, 0.0], [-s, 0.0, c, z as f32]];
-            plants.push(Placement { mesh: FERN, transform });
-        }
+    for [row, column] in grid(PLANTS) {
+        let (turn_x, turn_z) = direction(&mut random);
+        let scale = random.between(0.75, 1.35);
+        let [x, z] = [column, row].map(|at| (at + random.between(-0.4, 0.4)) * SPACING);
+        let (c, s) = ((turn_x * scale) as f32, (turn_z * scale) as f32);
+        let transform = [[c, 0.0, s, x as f32], [0.0, scale as f32, 0.0, 0.0], [-s, 0.0, c, z as f32]];
+        let placement = Placement { mesh: PATCH, transform };
+        let first = all.positions.len() as u32;
+        all.positions.extend(fern.positions.iter().map(|&position| placement.apply(position).map(|x| x as f32)));
+        all.uvs.extend_from_slice(&fern.uvs);
+        all.triangles.extend(fern.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
     }
-    plants
+    all
+}
+
+/// Where the patches lie: side by side, each a quarter turn from the one before.
+fn patches() -> Vec<Placement> {
+    let turns = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+    let placement = |([row, column], (c, s)): ([f64; 2], (f32, f32))| {
+        let [x, z] = [column, row].map(|at| (at * f64::from(PLANTS) * SPACING) as f32);
+        Placement { mesh: PATCH, transform: [[c, 0.0, s, x], [0.0, 1.0, 0.0, 0.0], [-s, 0.0, c, z]] }
+    };
+    grid(PATCHES).zip(turns.into_iter().cycle()).map(placement).collect()
+}
+
+/// The places of a square grid around 0, row by row.
+fn grid(side: u32) -> impl Iterator<Item = [f64; 2]> {
+    let at = move |place: u32| f64::from(place) - f64::from(side - 1) / 2.0;
+    (0..side).flat_map(move |row| (0..side).map(move |column| [at(row), at(column)]))
 }
 
 /// A direction in the plane, by rejection.
@@ -139,8 +167,8 @@ mod tests {
             assert!(part.triangles.iter().flatten().all(|&index| (index as usize) < part.positions.len()));
             assert!(part.uvs.is_empty() || part.uvs.len() == part.positions.len());
         }
-        assert_eq!(garden.meshes[FERN].parts[0].triangles.len(), 42);
-        assert_eq!(garden.placements.len(), 1 + 900);
+        assert_eq!(garden.meshes[PATCH].parts[0].triangles.len(), 9450);
+        assert_eq!(garden.placements.len(), 1 + 4);
     }
 
     #[test]

@@ -69,7 +69,7 @@ pub enum Paint {
         /// What each channel is multiplied with.
         factor: [f32; 3],
     },
-    /// Greens that grow lighter with the second texture coordinate's distance from 1 and differ from instance to instance.
+    /// Greens that grow lighter with the second texture coordinate's distance from 1 and differ from plant to plant of a patch.
     Frond,
     /// Brown in rings around the vertical axis of the world.
     Earth,

@@ -164,24 +164,40 @@ impl<'a> Tracer<'a> {
         size: [u32; 2],
         counters: &mut Counters,
     ) -> Result<([f64; 3], OpacitySource), RenderError> {
-        let camera = &self.scene.camera;
         let mut alpha_test = |candidate: &Candidate| self.alpha_test(candidate);
-        let options = TraceOptions::default();
-        let ray = Ray::unbounded(camera.eye(), camera.direction(place, size))?;
+        let (ray, options) = self.camera_ray(place, size)?;
         let Some(hit) = self.rays.trace(&ray, &options, &mut alpha_test, counters) else {
             return Ok((SKY, OpacitySource::Miss));
         };
-        let end = ray.at(hit.t);
         let facing = self.normal(&hit).map_or(0.0, |normal| dot(normal, self.sun).abs());
+        let (to_sun, options) = self.sun_ray(&ray, &hit)?;
+        let in_shadow = self.rays.trace(&to_sun, &options, &mut alpha_test, counters);
+        let direct = if in_shadow.is_some() { 0.0 } else { (1.0 - AMBIENT) * (0.4 + 0.6 * facing) };
+        let colour = self.colour(&hit, ray.at(hit.t)).map(|channel| (channel * (AMBIENT + direct)).clamp(0.0, 255.0));
+        Ok((colour, OpacitySource::of(&hit)))
+    }
+
+    /// The ray from the camera through a place of a picture of `size` pixels, whose left upper corner is 0, 0; and how it is traced.
+    ///
+    /// # Errors
+    /// A camera that is so far away that its rays are none.
+    pub fn camera_ray(&self, place: [f64; 2], size: [u32; 2]) -> Result<(Ray, TraceOptions), RayError> {
+        let camera = &self.scene.camera;
+        Ok((Ray::unbounded(camera.eye(), camera.direction(place, size))?, TraceOptions::default()))
+    }
+
+    /// The ray towards the sun from where another ended; and how it is traced.
+    ///
+    /// # Errors
+    /// A hit that is too far away for a ray to start there.
+    pub fn sun_ray(&self, ray: &Ray, hit: &Hit) -> Result<(Ray, TraceOptions), RayError> {
+        let end = ray.at(hit.t);
         // Above the surface by more than rounding, so that the ray to the sun does not meet it again.
         let far = end.iter().fold(1.0, |far: f64, x| far.max(f64::from(x.abs())));
         let start = [0, 1, 2].map(|axis| (f64::from(end[axis]) + 1e-3 * far * self.sun[axis]) as f32);
-        let to_sun = Ray::unbounded(start, self.sun.map(|x| x as f32))?;
         let flags = RayFlags::TERMINATE_ON_FIRST_HIT | RayFlags::SKIP_CLOSEST_HIT_SHADER;
-        let in_shadow = self.rays.trace(&to_sun, &TraceOptions { flags, ..options }, &mut alpha_test, counters);
-        let direct = if in_shadow.is_some() { 0.0 } else { (1.0 - AMBIENT) * (0.4 + 0.6 * facing) };
-        let colour = self.colour(&hit, end).map(|channel| (channel * (AMBIENT + direct)).clamp(0.0, 255.0));
-        Ok((colour, OpacitySource::of(&hit)))
+        let options = TraceOptions { flags, ..TraceOptions::default() };
+        Ok((Ray::unbounded(start, self.sun.map(|x| x as f32))?, options))
     }
 }
 

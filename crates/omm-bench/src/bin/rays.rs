@@ -42,21 +42,18 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let [ours, bare] = fastest(arguments.rounds, [&|| opaque.ours() as u64, &|| opaque.bare() as u64]);
     let rays = opaque.rays() as f64;
-    let sides: [&dyn Fn() -> u64; 2] =
-        [&|| garden_rays(&garden, &garden.with), &|| garden_rays(&garden, &garden.without)];
-    let [with, without] = fastest(arguments.rounds, sides);
-    let picture = garden.picture(&garden.with, SIZE)?;
-    let shaders = garden.picture(&garden.without, SIZE)?;
+    let aimed = garden.rays(SIZE)?;
+    let trace = |scene| garden.trace(scene, &aimed).map_or(0, |counters| counters.rays);
+    let [with, without] = fastest(arguments.rounds, [&|| trace(&garden.with), &|| trace(&garden.without)]);
+    let (micromaps, shaders) = (garden.trace(&garden.with, &aimed)?, garden.trace(&garden.without, &aimed)?);
     let (one, two) = (pool(1)?, pool(2)?);
     let [one, two] = fastest_wall(
         arguments.rounds,
-        [&|| one.install(|| garden_rays(&garden, &garden.with)), &|| {
-            two.install(|| garden_rays(&garden, &garden.with))
-        }],
+        [&|| one.install(|| picture_rays(&garden)), &|| two.install(|| picture_rays(&garden))],
     );
 
     let per_second = |rays: f64, time: Duration| rays / time.as_secs_f64() / 1e6;
-    let picture_rays = picture.rays as f64;
+    let aimed = aimed.len() as f64;
     let result = json!({ "trace": {
         "triangles": garden.with.triangle_count(),
         "opaque": {
@@ -66,16 +63,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             "ratio": bare.as_secs_f64() / ours.as_secs_f64(),
         },
         "micromaps": {
-            "rays": picture.rays,
-            "with_mrays_per_s": per_second(picture_rays, with),
-            "without_mrays_per_s": per_second(picture_rays, without),
+            "rays": micromaps.rays,
+            "with_mrays_per_s": per_second(aimed, with),
+            "without_mrays_per_s": per_second(aimed, without),
             "ratio": without.as_secs_f64() / with.as_secs_f64(),
-            "any_hit_with": picture.any_hit_calls,
+            "any_hit_with": micromaps.any_hit_calls,
             "any_hit_without": shaders.any_hit_calls,
         },
         "threads": {
-            "one_mrays_per_s": per_second(picture_rays, one),
-            "two_mrays_per_s": per_second(picture_rays, two),
+            "one_mrays_per_s": per_second(aimed, one),
+            "two_mrays_per_s": per_second(aimed, two),
             "ratio": one.as_secs_f64() / two.as_secs_f64(),
         },
     }});
@@ -87,14 +84,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         |what: &str, ours: f64, theirs: f64| println!("{what:<48}{ours:>9.2}{theirs:>9.2}{:>7.2}", ours / theirs);
     println!("{:<48}{:>9}{:>9}{:>7}", "million rays a second", "first", "second", "ratio");
     show("opaque triangles: ours, bare walk of obvhs", per_second(rays, ours), per_second(rays, bare));
-    show("garden: with micromaps, without", per_second(picture_rays, with), per_second(picture_rays, without));
-    show("garden: two threads, one", per_second(picture_rays, two), per_second(picture_rays, one));
-    println!("any-hit calls: {} with micromaps, {} without", picture.any_hit_calls, shaders.any_hit_calls);
+    show("garden: with micromaps, without", per_second(aimed, with), per_second(aimed, without));
+    show("pictures of the garden: two threads, one", per_second(aimed, two), per_second(aimed, one));
+    println!("any-hit calls: {} with micromaps, {} without", micromaps.any_hit_calls, shaders.any_hit_calls);
     Ok(())
 }
 
-fn garden_rays(garden: &Garden, scene: &omm_trace::Scene) -> u64 {
-    garden.picture(scene, SIZE).map_or(0, |counters| counters.rays)
+fn picture_rays(garden: &Garden) -> u64 {
+    garden.picture(&garden.with, SIZE).map_or(0, |counters| counters.rays)
 }
 
 /// The fastest round of each of two sides, which take turns, in processor time of this thread.

@@ -5,28 +5,30 @@
 use crate::random::Random;
 
 /// Side of the square texture in texels.
-pub const SIZE: u32 = 2048;
+pub const SIZE: u32 = 4096;
 
-/// One of the four maps that a frond is made of: `x' = a x + b y`, `y' = c x + d y + rise`, chosen with a weight out of 100.
+/// One of the four maps that a frond is made of: `x' = a x + b y + shift`, `y' = c x + d y + rise`, chosen with a weight out
+/// of 100.
 struct Map {
     a: f64,
     b: f64,
+    shift: f64,
     c: f64,
     d: f64,
     rise: f64,
     weight: u64,
 }
 
-/// Michael Barnsley's fern: stem, the smaller frond above, left leaflet, right leaflet.
+/// Michael Barnsley's fern, in the numbers of the marsh fern (Thelypteridaceae): stem, the smaller frond above, left leaflet, right leaflet.
 const MAPS: [Map; 4] = [
-    Map { a: 0.0, b: 0.0, c: 0.0, d: 0.16, rise: 0.0, weight: 1 },
-    Map { a: 0.85, b: 0.04, c: -0.04, d: 0.85, rise: 1.6, weight: 85 },
-    Map { a: 0.20, b: -0.26, c: 0.23, d: 0.22, rise: 1.6, weight: 7 },
-    Map { a: -0.15, b: 0.28, c: 0.26, d: 0.24, rise: 0.44, weight: 7 },
+    Map { a: 0.0, b: 0.0, shift: 0.0, c: 0.0, d: 0.25, rise: -0.4, weight: 2 },
+    Map { a: 0.95, b: 0.005, shift: -0.002, c: -0.005, d: 0.93, rise: 0.5, weight: 84 },
+    Map { a: 0.035, b: -0.2, shift: -0.09, c: 0.16, d: 0.04, rise: 0.02, weight: 7 },
+    Map { a: -0.04, b: 0.2, shift: 0.083, c: 0.16, d: 0.04, rise: 0.12, weight: 7 },
 ];
 
 /// Points plotted.
-const POINTS: u32 = 12_000_000;
+const POINTS: u32 = 48_000_000;
 
 /// The texture's alpha, row by row from the top (v = 0) down; the frond's root is at the bottom middle.
 pub fn alpha() -> Vec<u8> {
@@ -47,10 +49,10 @@ fn plot() -> Vec<u8> {
             hit
         });
         let Some(map) = map else { continue };
-        (x, y) = (map.a * x + map.b * y, map.c * x + map.d * y + map.rise);
-        // The attractor lies in -2.2..2.7 by 0..10; a margin of a few texels keeps the border transparent.
-        let column = (x + 2.9) / 6.2 * f64::from(SIZE);
-        let row = (10.3 - y) / 10.6 * f64::from(SIZE);
+        (x, y) = (map.a * x + map.b * y + map.shift, map.c * x + map.d * y + map.rise);
+        // The attractor lies in -1.6..1.6 by -0.6..7.2; a margin keeps the border transparent.
+        let column = (x + 1.8) / 3.6 * f64::from(SIZE);
+        let row = (7.3 - y) / 8.0 * f64::from(SIZE);
         if let Some(texel) = texels.get_mut(row as usize * size + column as usize) {
             *texel = 255;
         }
@@ -61,17 +63,16 @@ fn plot() -> Vec<u8> {
 /// Closes the gaps between points and gives the frond a soft edge, as a filtered texture has: a 5 by 5 box, then amplified.
 fn soften(texels: &[u8]) -> Vec<u8> {
     let size = SIZE as usize;
-    let at = |row: usize, column: usize| u32::from(texels[row * size + column]);
-    let mut soft = vec![0; texels.len()];
-    for row in 2..size - 2 {
-        for column in 2..size - 2 {
-            let mut sum = 0;
-            for neighbour_row in row - 2..=row + 2 {
-                for neighbour_column in column - 2..=column + 2 {
-                    sum += at(neighbour_row, neighbour_column);
-                }
-            }
-            soft[row * size + column] = (sum * 2 / 25).min(255) as u8;
+    let (mut across, mut soft) = (vec![0; texels.len()], vec![0; texels.len()]);
+    for (sums, row) in across.chunks_exact_mut(size).zip(texels.chunks_exact(size)) {
+        for (sum, near) in sums.iter_mut().skip(2).zip(row.windows(5)) {
+            *sum = near.iter().map(|&texel| u16::from(texel)).sum::<u16>();
+        }
+    }
+    for (row, soft) in soft.chunks_exact_mut(size).enumerate().skip(2).take(size - 4) {
+        for (column, soft) in soft.iter_mut().enumerate() {
+            let sum: u32 = (row - 2..=row + 2).map(|row| u32::from(across[row * size + column])).sum();
+            *soft = (sum * 2 / 25).min(255) as u8;
         }
     }
     soft

@@ -4,6 +4,7 @@ use omm_bake::{AddressMode, Sampler};
 use omm_trace::{AnyHit, Candidate, Hit};
 
 use super::Tracer;
+use crate::garden::PLANT_TRIANGLES;
 use crate::scene::{Paint, Part};
 use crate::vector::{cross, normalised, sub};
 
@@ -14,7 +15,8 @@ impl<'a> Tracer<'a> {
     }
 
     /// The any-hit shader: opaque where the filtered alpha is above the cutoff.
-    pub(super) fn alpha_test(&self, candidate: &Candidate) -> AnyHit {
+    #[must_use]
+    pub fn alpha_test(&self, candidate: &Candidate) -> AnyHit {
         let parts = self.surfaces.get(candidate.instance_custom_index as usize);
         let surface = parts.and_then(|parts| parts.get(candidate.geometry_index as usize)?.as_ref());
         let (Some(surface), Some(part)) = (surface, self.part(candidate)) else { return AnyHit::Accept };
@@ -33,7 +35,7 @@ impl<'a> Tracer<'a> {
             }
             Paint::Frond => {
                 let tip = 1.0 - texture_coordinates(part, hit)[1];
-                let hue = f64::from(hit.instance_id % 7) * 5.0;
+                let hue = f64::from(hit.primitive_id / PLANT_TRIANGLES % 7) * 5.0;
                 [46.0 + 70.0 * tip + hue, 118.0 + 90.0 * tip - hue, 48.0 + 20.0 * tip]
             }
             Paint::Earth => {
