@@ -19,7 +19,8 @@ struct Map {
     weight: u64,
 }
 
-/// Michael Barnsley's fern, in the numbers of the marsh fern (Thelypteridaceae): stem, the smaller frond above, left leaflet, right leaflet.
+/// Michael Barnsley's fern with the numbers that are told of marsh ferns (Thelypteridaceae): stem, the smaller frond above, left
+/// leaflet, right leaflet.
 const MAPS: [Map; 4] = [
     Map { a: 0.0, b: 0.0, shift: 0.0, c: 0.0, d: 0.25, rise: -0.4, weight: 2 },
     Map { a: 0.95, b: 0.005, shift: -0.002, c: -0.005, d: 0.93, rise: 0.5, weight: 84 },
@@ -50,7 +51,7 @@ fn plot() -> Vec<u8> {
         });
         let Some(map) = map else { continue };
         (x, y) = (map.a * x + map.b * y + map.shift, map.c * x + map.d * y + map.rise);
-        // The attractor lies in -1.6..1.6 by -0.6..7.2; a margin keeps the border transparent.
+        // The attractor lies in -1.5..1.5 by -0.6..7.1; a margin keeps the border transparent.
         let column = (x + 1.8) / 3.6 * f64::from(SIZE);
         let row = (7.3 - y) / 8.0 * f64::from(SIZE);
         if let Some(texel) = texels.get_mut(row as usize * size + column as usize) {
