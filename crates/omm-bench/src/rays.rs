@@ -18,6 +18,7 @@ use omm_bake::{BakeOptions, LevelChoice};
 use omm_device::Device;
 use omm_device::app::App;
 use omm_model::profile::DeviceProfile;
+use omm_render::trace::tiles;
 use omm_render::{
     Baked, Built, Mesh, Paint, Part, PictureOptions, Placement, RenderError, RenderScene, Tracer, garden,
 };
@@ -115,7 +116,7 @@ fn build(scene: &RenderScene, baked: &Baked) -> Result<(Scene, Scene), RenderErr
 /// A ray, and how it is traced.
 pub type Aimed = (Ray, TraceOptions);
 
-/// The rays through the middles of pixels, each followed by the one to the sun from where it ends.
+/// The rays through the middles of pixels and those to the sun from where they end, in the order in which a picture has them.
 fn aim<S: Shaders>(
     tracer: &Tracer<'_>,
     scene: &Scene,
@@ -123,14 +124,16 @@ fn aim<S: Shaders>(
     shaders: &mut S,
 ) -> Result<Vec<Aimed>, RenderError> {
     let (mut rays, mut counters) = (Vec::new(), Counters::default());
-    for row in 0..size[1] {
-        for column in 0..size[0] {
-            let (ray, options) = tracer.camera_ray([column, row].map(|at| f64::from(at) + 0.5), size)?;
+    for tile in tiles(size) {
+        let mut to_sun = Vec::new();
+        for pixel in tile.pixels() {
+            let (ray, options) = tracer.camera_ray(pixel.map(|at| f64::from(at) + 0.5), size)?;
             rays.push((ray, options));
             if let Some(hit) = scene.trace(&ray, &options, shaders, &mut counters) {
-                rays.push(tracer.sun_ray(&ray, &hit)?);
+                to_sun.push(tracer.sun_ray(&ray, &hit)?);
             }
         }
+        rays.append(&mut to_sun);
     }
     Ok(rays)
 }

@@ -93,13 +93,13 @@ pub(crate) fn run(args: &DemoArgs, format: Format) -> Result<Outcome, CliError> 
     let bake_seconds = start.elapsed().as_secs_f64();
 
     let path = Path::walk(&scene, &baked)?;
-    let progress = Progress::new("tracing", 2 * u64::from(SIZE[1]));
+    let progress = Progress::new("tracing", 2 * u64::from(SIZE[0]) * u64::from(SIZE[1]));
     let traced = |view, address| -> Result<_, RenderError> {
         let rays = Scene::load(view, address)?;
         let tracer = Tracer::new(&rays, &scene)?;
         let start = Instant::now();
         let options = PictureOptions { size: SIZE, samples: 1, seed: 0 };
-        let picture = tracer.picture(&options, &|rows, _| progress.advance(rows))?;
+        let picture = tracer.picture(&options, &|pixels, _| progress.advance(pixels))?;
         Ok((picture, start.elapsed().as_secs_f64(), rays.triangle_count()))
     };
     let (without, trace_seconds_without, triangles) = traced(&path.first, path.without)?;

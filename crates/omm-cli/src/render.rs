@@ -173,12 +173,12 @@ impl RenderArgs {
     fn trace(&self, device: &Device, address: DeviceAddress, scene: &RenderScene) -> Result<Traced, RenderError> {
         let rays = Scene::load(device, address)?;
         let tracer = Tracer::new(&rays, scene)?;
-        let progress = Progress::new("tracing", u64::from(self.size[1]));
+        let progress = Progress::new("tracing", self.size.map(u64::from).iter().product());
         let (since, traced) = (Instant::now(), AtomicU64::new(0));
-        let step = |rows, rays| {
+        let step = |pixels, rays| {
             let traced = traced.fetch_add(rays, Ordering::Relaxed) + rays;
             let rate = traced as f64 / since.elapsed().as_secs_f64().max(1e-9) / 1e6;
-            progress.advance_with(rows, format!("tracing, {rate:.2} million rays a second"));
+            progress.advance_with(pixels, format!("tracing, {rate:.2} million rays a second"));
         };
         let options = PictureOptions { size: self.size, samples: self.samples, seed: self.seed };
         let picture = tracer.picture(&options, &step)?;

@@ -1,18 +1,18 @@
 //! The renderer: rays through each pixel, one towards the sun from where each ends.
 
 use omm_bake::Surface;
-use omm_trace::{Candidate, Counters, Hit, Ray, RayError, RayFlags, Scene, TraceOptions};
+use omm_trace::{Counters, Hit, Ray, RayError, RayFlags, Scene, TraceOptions};
 use rayon::prelude::*;
 
 use crate::error::RenderError;
-use crate::random::Random;
 use crate::scene::{Part, Placement, RenderScene};
 use crate::vector::{dot, normalised};
 
 mod shade;
+mod tile;
 
-/// Rows that a thread takes at a time.
-const ROWS: usize = 4;
+pub use tile::{Tile, tiles};
+
 /// The part of the light that comes from everywhere.
 const AMBIENT: f64 = 0.38;
 const SKY: [f64; 3] = [150.0, 180.0, 215.0];
@@ -70,13 +70,6 @@ pub struct Tracer<'a> {
     sun: [f64; 3],
 }
 
-#[derive(Clone, Copy)]
-struct Pixel {
-    colour: [u8; 3],
-    any_hit_calls: u32,
-    source: OpacitySource,
-}
-
 impl<'a> Tracer<'a> {
     /// Shaders for `rays`, which was built from `scene`.
     ///
@@ -95,7 +88,7 @@ impl<'a> Tracer<'a> {
         Ok(Self { rays, scene, placed: scene.placed().collect(), surfaces: surfaces.collect::<Result<_, _>>()?, sun })
     }
 
-    /// Takes a picture, the same whatever the number of threads. `progress` is told how many rows and rays more are done.
+    /// Takes a picture, the same whatever the number of threads. `progress` is told how many pixels and rays more are done.
     ///
     /// # Errors
     /// A camera that is so far away that its rays are none.
@@ -104,77 +97,41 @@ impl<'a> Tracer<'a> {
         options: &PictureOptions,
         progress: &(dyn Fn(u64, u64) + Sync),
     ) -> Result<Picture, RenderError> {
-        let [width, height] = options.size;
-        let tiles: Vec<_> = (0..height)
-            .collect::<Vec<_>>()
-            .par_chunks(ROWS)
-            .map(|rows| {
+        let [width, height] = options.size.map(|size| size as usize);
+        let tiles: Vec<_> = tiles(options.size).collect();
+        let traced: Vec<_> = tiles
+            .par_iter()
+            .map(|tile| {
                 let mut counters = Counters::default();
-                let pixels = rows.iter().flat_map(|&row| (0..width).map(move |column| [column, row]));
-                let pixels: Vec<_> =
-                    pixels.map(|at| self.pixel(at, options, &mut counters)).collect::<Result<_, RenderError>>()?;
-                progress(rows.len() as u64, counters.rays);
+                let pixels = self.tile(tile, options, &mut counters)?;
+                progress(pixels.len() as u64, counters.rays);
                 Ok((pixels, counters))
             })
             .collect::<Result<_, RenderError>>()?;
         let mut picture = Picture {
             size: options.size,
-            colours: Vec::new(),
-            any_hit_calls: Vec::new(),
-            sources: Vec::new(),
+            colours: vec![[0; 3]; width * height],
+            any_hit_calls: vec![0; width * height],
+            sources: vec![OpacitySource::Miss; width * height],
             counters: Counters::default(),
         };
-        for (pixels, counters) in tiles {
-            for Pixel { colour, any_hit_calls, source } in pixels {
-                picture.colours.push(colour);
-                picture.any_hit_calls.push(any_hit_calls);
-                picture.sources.push(source);
-            }
+        for (tile, (pixels, counters)) in tiles.iter().zip(traced) {
             picture.counters += counters;
+            for ([column, row], pixel) in tile.pixels().zip(pixels) {
+                let at = row as usize * width + column as usize;
+                picture.colours[at] = pixel.colour;
+                picture.any_hit_calls[at] = pixel.any_hit_calls;
+                picture.sources[at] = pixel.source;
+            }
         }
         Ok(picture)
     }
 
-    fn pixel(&self, at: [u32; 2], options: &PictureOptions, counters: &mut Counters) -> Result<Pixel, RenderError> {
-        let PictureOptions { size, samples, seed } = *options;
-        let samples = samples.max(1);
-        let before = counters.any_hit_calls;
-        let number = u64::from(at[1]) * u64::from(size[0]) + u64::from(at[0]);
-        let mut random = Random::new(seed ^ number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        let mut sum = [0.0; 3];
-        let mut first = None;
-        for _ in 0..samples {
-            let shift = if samples == 1 { [0.5; 2] } else { [random.unit(), random.unit()] };
-            let place = [0, 1].map(|axis| f64::from(at[axis]) + shift[axis]);
-            let (colour, source) = self.sample(place, size, counters)?;
-            sum = [0, 1, 2].map(|channel| sum[channel] + colour[channel]);
-            first.get_or_insert(source);
-        }
-        Ok(Pixel {
-            colour: sum.map(|channel| (channel / f64::from(samples)) as u8),
-            any_hit_calls: u32::try_from(counters.any_hit_calls - before).unwrap_or(u32::MAX),
-            source: first.unwrap_or(OpacitySource::Miss),
-        })
-    }
-
-    /// The colour at a place of the picture.
-    fn sample(
-        &self,
-        place: [f64; 2],
-        size: [u32; 2],
-        counters: &mut Counters,
-    ) -> Result<([f64; 3], OpacitySource), RenderError> {
-        let mut alpha_test = |candidate: &Candidate| self.alpha_test(candidate);
-        let (ray, options) = self.camera_ray(place, size)?;
-        let Some(hit) = self.rays.trace(&ray, &options, &mut alpha_test, counters) else {
-            return Ok((SKY, OpacitySource::Miss));
-        };
-        let facing = self.normal(&hit).map_or(0.0, |normal| dot(normal, self.sun).abs());
-        let (to_sun, options) = self.sun_ray(&ray, &hit)?;
-        let in_shadow = self.rays.trace(&to_sun, &options, &mut alpha_test, counters);
-        let direct = if in_shadow.is_some() { 0.0 } else { (1.0 - AMBIENT) * (0.4 + 0.6 * facing) };
-        let colour = self.colour(&hit, ray.at(hit.t)).map(|channel| (channel * (AMBIENT + direct)).clamp(0.0, 255.0));
-        Ok((colour, OpacitySource::of(&hit)))
+    /// The colour of a hit at a point, in the sun or not.
+    fn lit(&self, hit: &Hit, point: [f32; 3], in_shadow: bool) -> [f64; 3] {
+        let facing = self.normal(hit).map_or(0.0, |normal| dot(normal, self.sun).abs());
+        let direct = if in_shadow { 0.0 } else { (1.0 - AMBIENT) * (0.4 + 0.6 * facing) };
+        self.colour(hit, point).map(|channel| (channel * (AMBIENT + direct)).clamp(0.0, 255.0))
     }
 
     /// The ray from the camera through a place of a picture of `size` pixels, whose left upper corner is 0, 0; and how it is traced.
