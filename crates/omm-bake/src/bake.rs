@@ -109,9 +109,9 @@ pub fn estimate(input: &BakeInput<'_>, options: &BakeOptions) -> Result<WorkEsti
 /// Bakes opacity micromaps for the triangles of `input`.
 ///
 /// The result depends on the arguments alone, not on the number of threads: rayon's current pool is used. Beside the input and the
-/// result, memory holds a bit for each texel, a few words for each triangle, and for each thread about two blocks or half a megabyte. `progress` is called from any
-/// thread, now and then, in no order; to ignore it give `&|_| {}`. If it answers [`ControlFlow::Break`], no further triangle is
-/// begun.
+/// result, memory holds a bit for each texel, a few words for each triangle, and for each thread about two blocks or half a megabyte.
+/// `progress` is called from any thread, now and then, in no order; to ignore it give `&|_| {}`. If it answers
+/// [`ControlFlow::Break`], no further triangle is begun.
 ///
 /// # Errors
 /// [`BakeError`] if an option or an index has no meaning, if a budget cannot be met, if the data would be larger than offsets can
@@ -171,8 +171,9 @@ fn for_each_block<A: ProgressAnswer>(
     order.sort_unstable();
     let finished = |count| watch.advance(count);
     // While one batch is baked the one before it is taken, so that no thread waits for that.
-    let (mut rest, mut before) = (order.as_slice(), (order.get(..0).unwrap_or_default(), Vec::new()));
-    while !rest.is_empty() || !before.0.is_empty() {
+    let mut rest = order.as_slice();
+    let (mut before, mut blocks) = (rest.get(..0).unwrap_or_default(), Vec::new());
+    while !rest.is_empty() || !before.is_empty() {
         let batch = rest.first().map_or(0, |&(_, first)| {
             let Job { level, format, .. } = schedule.jobs[first as usize];
             rayon::current_num_threads() * (BYTES_PER_THREAD / format.data_size(level) as usize).max(1)
@@ -184,13 +185,13 @@ fn for_each_block<A: ProgressAnswer>(
             }
             layers.bake(&schedule.jobs[job as usize], patch, &finished)
         };
-        let take = || before.0.iter().zip(&before.1).try_for_each(|(&(_, job), block)| baked(job as usize, block));
-        let (blocks, taken) = rayon::join(|| now.par_iter().map_init(Patch::new, bake).collect(), take);
+        let take = || before.iter().zip(&blocks).try_for_each(|(&(_, job), block)| baked(job as usize, block));
+        let (baked_now, taken) = rayon::join(|| now.par_iter().map_init(Patch::new, bake).collect(), take);
         taken?;
         if watch.is_cancelled() {
             return Err(BakeError::Cancelled);
         }
-        (before, rest) = ((now, blocks), later);
+        (before, blocks, rest) = (now, baked_now, later);
     }
     Ok(())
 }

@@ -21,7 +21,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::texture::Texture;
+use crate::texture::{Texture, TextureError};
 
 mod block;
 mod dds;
@@ -115,6 +115,9 @@ fn read_level(bytes: &[u8], options: ImageOptions, level: u32) -> Result<Texture
 
 /// Width and height of a mip level, with a size that may be held in memory.
 fn level_size(width: u32, height: u32, level: u32, claimed: u32) -> Result<(u32, u32), ImageError> {
+    if width == 0 || height == 0 {
+        return Err(TextureError::Empty { width, height }.into());
+    }
     // Behind the level of a single texel there is none, whatever the file claims.
     let levels = claimed.min(width.max(height).checked_ilog2().unwrap_or(0) + 1);
     if level >= levels {

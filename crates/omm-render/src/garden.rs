@@ -27,8 +27,6 @@ pub const LEVEL: SubdivisionLevel = match SubdivisionLevel::new(9) {
 const SEGMENTS: u32 = 3;
 /// Fronds of a plant.
 const FRONDS: u32 = 7;
-/// Triangles of a plant.
-pub(crate) const PLANT_TRIANGLES: u32 = 2 * SEGMENTS * FRONDS;
 /// Plants along each side of a patch.
 const PLANTS: u32 = 15;
 /// Patches along each side of the garden.
@@ -66,7 +64,7 @@ fn plant() -> Part {
         positions: Vec::new(),
         uvs: Vec::new(),
         triangles: Vec::new(),
-        paint: Paint::Frond,
+        paint: Paint::Frond { plant: 2 * SEGMENTS * FRONDS },
         cutout: Some(Cutout { alpha: 0, sampler, alpha_cutoff: 0.5 }),
     };
     // Directions of the fronds: a seventh of a turn, repeated.
@@ -111,7 +109,8 @@ fn ground() -> Part {
 /// Ferns: a grid shaken, turned and scaled by chance.
 fn patch() -> Part {
     let fern = plant();
-    let mut all = Part { positions: Vec::new(), uvs: Vec::new(), triangles: Vec::new(), ..fern.clone() };
+    let (paint, cutout) = (fern.paint, fern.cutout);
+    let mut all = Part { positions: Vec::new(), uvs: Vec::new(), triangles: Vec::new(), paint, cutout };
     let mut random = Random::new(2026);
     for [row, column] in grid(PLANTS) {
         let (turn_x, turn_z) = direction(&mut random);

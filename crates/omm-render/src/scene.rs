@@ -69,8 +69,11 @@ pub enum Paint {
         /// What each channel is multiplied with.
         factor: [f32; 3],
     },
-    /// Greens that grow lighter with the second texture coordinate's distance from 1 and differ from plant to plant of a patch.
-    Frond,
+    /// Greens that grow lighter with the second texture coordinate's distance from 1 and differ from plant to plant.
+    Frond {
+        /// How many triangles after each other are one plant; all are if 0.
+        plant: u32,
+    },
     /// Brown in rings around the vertical axis of the world.
     Earth,
 }

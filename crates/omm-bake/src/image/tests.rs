@@ -201,6 +201,9 @@ fn claims_are_held_against_the_data() {
     let mut huge = dxgi(DxgiFormat::BC7_UNorm, 4, 4, 1, &BC2);
     // Height and width.
     huge[12..20].fill(0xff);
+    let mut flat = dxgi(DxgiFormat::BC7_UNorm, 4, 4, 1, &BC2);
+    flat[16..20].fill(0);
+    assert_eq!(refused(&flat, ALPHA), "a texture of 0 x 4 texels is empty");
     for bytes in [ktx_size([u32::MAX; 2]), huge] {
         assert!(refused(&bytes, ALPHA).contains("is too large: no more than 268435456 texels are read"));
     }

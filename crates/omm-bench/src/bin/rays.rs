@@ -53,6 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
 
     let per_second = |rays: f64, time: Duration| rays / time.as_secs_f64() / 1e6;
+    // Those of a picture, too.
     let aimed = aimed.len() as f64;
     let result = json!({ "trace": {
         "triangles": garden.with.triangle_count(),

@@ -4,7 +4,6 @@ use omm_bake::{AddressMode, Sampler};
 use omm_trace::{AnyHit, Candidate, Hit};
 
 use super::Tracer;
-use crate::garden::PLANT_TRIANGLES;
 use crate::scene::{Paint, Part};
 use crate::vector::{cross, normalised, sub};
 
@@ -33,9 +32,9 @@ impl<'a> Tracer<'a> {
                 let texel = self.texel(colour, &sampler, texture_coordinates(part, hit));
                 [0, 1, 2].map(|channel| f64::from(texel[channel]) * f64::from(factor[channel]))
             }
-            Paint::Frond => {
+            Paint::Frond { plant } => {
                 let tip = 1.0 - texture_coordinates(part, hit)[1];
-                let hue = f64::from(hit.primitive_id / PLANT_TRIANGLES % 7) * 5.0;
+                let hue = f64::from(hit.primitive_id.checked_div(plant).unwrap_or(0) % 7) * 5.0;
                 [46.0 + 70.0 * tip + hue, 118.0 + 90.0 * tip - hue, 48.0 + 20.0 * tip]
             }
             Paint::Earth => {
